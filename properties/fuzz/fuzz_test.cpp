@@ -1,17 +1,23 @@
 // What the fuzzer's target does without libFuzzer: any bytes make a configuration, answers that are
-// wrong are seen, and the corpus holds.
+// wrong are seen, and the corpus holds; and so does the hostile class.
+//
+// TOUCHSTONE_COUNT sets how many hostile configurations of each pair are tried; by default 2000.
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <iterator>
+#include <optional>
 #include <random>
 #include <set>
+#include <string>
 #include <vector>
 
 #include "properties/fuzz/disagreement.hpp"
 #include "properties/fuzz/from_bytes.hpp"
+#include "properties/identity.hpp"
 
 namespace touchstone {
 namespace {
@@ -96,6 +102,26 @@ TEST(FuzzCorpus, HoldsNoDisagreement) {
   }
   EXPECT_GT(count, 10);
 }
+
+class HostileAnswers : public testing::TestWithParam<Pair> {};
+
+// Against `certified_distance`; one in 500 against the truth, which takes a hundred times as long.
+TEST_P(HostileAnswers, HoldNoDisagreement) {
+  const char* const text = std::getenv("TOUCHSTONE_COUNT");
+  const std::uint64_t count = text ? std::strtoull(text, nullptr, 10) : 2000;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    const Identity id{GetParam(), "hostile", 23, i};
+    const Configuration c = make_configuration(id);
+    std::optional<oracle::Truth> truth;
+    if (i % 500 == 0) truth = oracle::truth(c);
+    EXPECT_EQ(disagreement(c, own_answers(c), truth ? &*truth : nullptr), std::nullopt)
+        << to_string(id);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(, HostileAnswers, testing::ValuesIn(all_pairs), [](const auto& pair) {
+  return std::string(pair_name(pair.param)).substr(std::string("cylinder-").size());
+});
 
 }  // namespace
 }  // namespace touchstone
