@@ -7,8 +7,8 @@
 #include <iostream>
 
 #include "properties/arbitrary.hpp"
-#include "properties/fuzz/disagreement.hpp"
-#include "properties/fuzz/from_bytes.hpp"
+#include "verification/fuzz/disagreement.hpp"
+#include "verification/fuzz/from_bytes.hpp"
 
 namespace {
 

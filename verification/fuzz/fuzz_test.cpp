@@ -15,9 +15,9 @@
 #include <string>
 #include <vector>
 
-#include "properties/fuzz/disagreement.hpp"
-#include "properties/fuzz/from_bytes.hpp"
 #include "properties/identity.hpp"
+#include "verification/fuzz/disagreement.hpp"
+#include "verification/fuzz/from_bytes.hpp"
 
 namespace touchstone {
 namespace {

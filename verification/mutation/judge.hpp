@@ -8,8 +8,8 @@
 
 #include <Eigen/Geometry>
 
-#include "properties/mutation/cases.hpp"
-#include "properties/mutation/routines.hpp"
+#include "verification/mutation/cases.hpp"
+#include "verification/mutation/routines.hpp"
 
 namespace touchstone::mutation {
 

@@ -1,4 +1,4 @@
-#include "properties/mutation/cases.hpp"
+#include "verification/mutation/cases.hpp"
 
 #include <algorithm>
 #include <cmath>

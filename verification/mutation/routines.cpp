@@ -1,5 +1,5 @@
 // The routines of reference/ behind plain numbers; built once as they are and once with faults.
-#include "properties/mutation/routines.hpp"
+#include "verification/mutation/routines.hpp"
 
 #include <memory>
 #include <string>

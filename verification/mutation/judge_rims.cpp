@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "properties/mutation/judge.hpp"
+#include "verification/mutation/judge.hpp"
 
 namespace touchstone::mutation {
 namespace {

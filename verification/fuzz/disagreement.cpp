@@ -1,4 +1,4 @@
-#include "properties/fuzz/disagreement.hpp"
+#include "verification/fuzz/disagreement.hpp"
 
 #include <algorithm>
 #include <cmath>

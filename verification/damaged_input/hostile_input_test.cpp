@@ -17,7 +17,6 @@
 #include <nlohmann/json.hpp>
 
 #include "candidates/candidates.hpp"
-#include "cli/mutation.hpp"
 #include "properties/files/configuration_json.hpp"
 #include "properties/files/given_text.hpp"
 #include "properties/files/strict_json.hpp"
@@ -34,6 +33,7 @@
 #include "simulation/scenes/robot_file.hpp"
 #include "simulation/scenes/scene_file.hpp"
 #include "simulation/world.hpp"
+#include "verification/damaged_input/mutation.hpp"
 
 namespace touchstone {
 namespace {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "properties/mutation/routines.hpp"
 #include "reference/configuration.hpp"
+#include "verification/mutation/routines.hpp"
 
 namespace touchstone::mutation {
 

@@ -1,4 +1,4 @@
-#include "cli/mutation.hpp"
+#include "verification/damaged_input/mutation.hpp"
 
 #include <cctype>
 #include <iterator>

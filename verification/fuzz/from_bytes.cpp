@@ -1,4 +1,4 @@
-#include "properties/fuzz/from_bytes.hpp"
+#include "verification/fuzz/from_bytes.hpp"
 
 #include <algorithm>
 #include <array>

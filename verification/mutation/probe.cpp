@@ -1,5 +1,5 @@
 // How good is the net? Asks a library of routines in which a fault may be planted, and stops at the
-// first answer that is wrong (properties/mutation/mutation_score.py).
+// first answer that is wrong (verification/mutation/mutation_score.py).
 //
 //   mutation_probe cases NET COUNT FILE          configurations and their truths, once
 //   mutation_probe baseline LIBRARY FILE KNOWN   what is wrong without a fault, left out from then
@@ -17,7 +17,7 @@
 #include <stdexcept>
 #include <sys/time.h>
 
-#include "properties/mutation/judge.hpp"
+#include "verification/mutation/judge.hpp"
 
 namespace touchstone::mutation {
 namespace {

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """How good is the net? Plants faults in our own routines, one at a time, and counts who finds them.
 
-  properties/mutation/mutation_score.py --build build/release
+  verification/mutation/mutation_score.py --build build/release
 
 A fault is a forced condition, another operator, a call, sign or limit left out, a tolerance a
 hundred times too large or too small, a loop that ends early, … (mutants.py). They are drawn evenly
@@ -325,7 +325,7 @@ def main():
     reasons = json.loads((HERE / "equivalent.json").read_text())
     work = (words.work or words.build / "mutation").resolve()
     work.mkdir(parents=True, exist_ok=True)
-    program = words.build.resolve() / "properties" / "mutation" / "mutation_probe"
+    program = words.build.resolve() / "verification" / "mutation" / "mutation_probe"
     touchstone = words.build.resolve() / "touchstone"
     for needed in [program] + ([touchstone] if words.laws == "yes" else []):
         if not needed.exists():

@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "properties/mutation/judge.hpp"
+#include "verification/mutation/judge.hpp"
 
 namespace touchstone::mutation {
 namespace {

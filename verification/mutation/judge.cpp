@@ -1,4 +1,4 @@
-#include "properties/mutation/judge.hpp"
+#include "verification/mutation/judge.hpp"
 
 #include <cstring>
 #include <limits>
