@@ -11,8 +11,7 @@
 
 #include "candidates/candidate.h"
 #include "candidates/model.hpp"
-#include "reference/cylinder_capsule.hpp"
-#include "reference/cylinder_sphere.hpp"
+#include "reference/contact.hpp"
 
 using touchstone::BoxParts;
 using touchstone::Contact;

@@ -5,11 +5,6 @@
 #include <limits>
 #include <string>
 
-#include "cylinder_box.hpp"
-#include "cylinder_capsule.hpp"
-#include "cylinder_cylinder.hpp"
-#include "cylinder_plane.hpp"
-#include "cylinder_sphere.hpp"
 #include "invalid_input.hpp"
 #include "pair.hpp"
 #include "rims.hpp"

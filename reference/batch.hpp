@@ -8,10 +8,9 @@
 
 namespace touchstone {
 
-// The questions of cylinder_plane.hpp and its siblings for many poses of one pair of shapes, as a
-// broad phase finds them: poses_a[i] and poses_b[i] make the i-th pair, and results[i] is its
-// answer, the same to the last bit as that of the function for one pair. `Other` is Plane, Sphere,
-// Capsule, Cylinder or Box.
+// The questions of contact.hpp for many poses of one pair of shapes, as a broad phase finds them:
+// poses_a[i] and poses_b[i] make the i-th pair, and results[i] is its answer, the same to the last
+// bit as that of the function for one pair. `Other` is Plane, Sphere, Capsule, Cylinder or Box.
 //
 // Nothing is allocated. All spans must have the same length, which may be zero: else InvalidInput
 // is thrown and nothing written. Results must not overlap the poses.

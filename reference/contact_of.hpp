@@ -1,15 +1,11 @@
 #pragma once
 
 #include "configuration.hpp"
-#include "cylinder_box.hpp"
-#include "cylinder_capsule.hpp"
-#include "cylinder_cylinder.hpp"
-#include "cylinder_plane.hpp"
-#include "cylinder_sphere.hpp"
+#include "contact.hpp"
 
 namespace touchstone {
 
-// The questions of cylinder_plane.hpp and its siblings, asked of a configuration.
+// The questions of contact.hpp, asked of a configuration.
 
 inline SignedDistance signed_distance(const Configuration& c) {
   return std::visit([&](const auto& b) { return signed_distance(c.a, c.pose_a, b, c.pose_b); },

@@ -1,5 +1,3 @@
-#include "cylinder_box.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -388,6 +386,20 @@ using BoxRoutine = SearchRoutine<PosedBox, find_largest>;
 
 }  // namespace
 
-TOUCHSTONE_DEFINE_QUESTIONS(Box, BoxRoutine)
+SignedDistance signed_distance(const Cylinder& a, const Pose& pose_a, const Box& b,
+                               const Pose& pose_b) {
+  return find_signed_distance<BoxRoutine>(a, pose_a, b, pose_b);
+}
+CertifiedDistance certified_distance(const Cylinder& a, const Pose& pose_a, const Box& b,
+                                     const Pose& pose_b) {
+  return find_certified_distance<BoxRoutine>(a, pose_a, b, pose_b);
+}
+bool overlaps(const Cylinder& a, const Pose& pose_a, const Box& b, const Pose& pose_b) {
+  return find_overlap<BoxRoutine>(a, pose_a, b, pose_b);
+}
+Contact contact(const Cylinder& a, const Pose& pose_a, const Box& b, const Pose& pose_b,
+                double contact_threshold, const Vec3* previous_normal, PointRange range) {
+  return find_contact<BoxRoutine>(a, pose_a, b, pose_b, contact_threshold, previous_normal, range);
+}
 
 }  // namespace touchstone

@@ -1,5 +1,3 @@
-#include "cylinder_capsule.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -171,6 +169,21 @@ using CapsuleRoutine = SearchRoutine<PosedCapsule, find_largest>;
 
 }  // namespace
 
-TOUCHSTONE_DEFINE_QUESTIONS(Capsule, CapsuleRoutine)
+SignedDistance signed_distance(const Cylinder& a, const Pose& pose_a, const Capsule& b,
+                               const Pose& pose_b) {
+  return find_signed_distance<CapsuleRoutine>(a, pose_a, b, pose_b);
+}
+CertifiedDistance certified_distance(const Cylinder& a, const Pose& pose_a, const Capsule& b,
+                                     const Pose& pose_b) {
+  return find_certified_distance<CapsuleRoutine>(a, pose_a, b, pose_b);
+}
+bool overlaps(const Cylinder& a, const Pose& pose_a, const Capsule& b, const Pose& pose_b) {
+  return find_overlap<CapsuleRoutine>(a, pose_a, b, pose_b);
+}
+Contact contact(const Cylinder& a, const Pose& pose_a, const Capsule& b, const Pose& pose_b,
+                double contact_threshold, const Vec3* previous_normal, PointRange range) {
+  return find_contact<CapsuleRoutine>(a, pose_a, b, pose_b, contact_threshold, previous_normal,
+                                      range);
+}
 
 }  // namespace touchstone

@@ -1,5 +1,3 @@
-#include "cylinder_cylinder.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -319,6 +317,21 @@ using CylinderRoutine = SearchRoutine<PosedCylinder, find_largest>;
 
 }  // namespace
 
-TOUCHSTONE_DEFINE_QUESTIONS(Cylinder, CylinderRoutine)
+SignedDistance signed_distance(const Cylinder& a, const Pose& pose_a, const Cylinder& b,
+                               const Pose& pose_b) {
+  return find_signed_distance<CylinderRoutine>(a, pose_a, b, pose_b);
+}
+CertifiedDistance certified_distance(const Cylinder& a, const Pose& pose_a, const Cylinder& b,
+                                     const Pose& pose_b) {
+  return find_certified_distance<CylinderRoutine>(a, pose_a, b, pose_b);
+}
+bool overlaps(const Cylinder& a, const Pose& pose_a, const Cylinder& b, const Pose& pose_b) {
+  return find_overlap<CylinderRoutine>(a, pose_a, b, pose_b);
+}
+Contact contact(const Cylinder& a, const Pose& pose_a, const Cylinder& b, const Pose& pose_b,
+                double contact_threshold, const Vec3* previous_normal, PointRange range) {
+  return find_contact<CylinderRoutine>(a, pose_a, b, pose_b, contact_threshold, previous_normal,
+                                       range);
+}
 
 }  // namespace touchstone

@@ -1,5 +1,3 @@
-#include "cylinder_plane.hpp"
-
 #include <array>
 #include <cmath>
 
@@ -102,6 +100,21 @@ class PlaneRoutine {
 
 }  // namespace
 
-TOUCHSTONE_DEFINE_QUESTIONS(Plane, PlaneRoutine)
+SignedDistance signed_distance(const Cylinder& a, const Pose& pose_a, const Plane& b,
+                               const Pose& pose_b) {
+  return find_signed_distance<PlaneRoutine>(a, pose_a, b, pose_b);
+}
+CertifiedDistance certified_distance(const Cylinder& a, const Pose& pose_a, const Plane& b,
+                                     const Pose& pose_b) {
+  return find_certified_distance<PlaneRoutine>(a, pose_a, b, pose_b);
+}
+bool overlaps(const Cylinder& a, const Pose& pose_a, const Plane& b, const Pose& pose_b) {
+  return find_overlap<PlaneRoutine>(a, pose_a, b, pose_b);
+}
+Contact contact(const Cylinder& a, const Pose& pose_a, const Plane& b, const Pose& pose_b,
+                double contact_threshold, const Vec3* previous_normal, PointRange range) {
+  return find_contact<PlaneRoutine>(a, pose_a, b, pose_b, contact_threshold, previous_normal,
+                                    range);
+}
 
 }  // namespace touchstone

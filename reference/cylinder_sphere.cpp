@@ -1,5 +1,3 @@
-#include "cylinder_sphere.hpp"
-
 #include <algorithm>
 #include <cmath>
 
@@ -78,6 +76,21 @@ class SphereRoutine {
 
 }  // namespace
 
-TOUCHSTONE_DEFINE_QUESTIONS(Sphere, SphereRoutine)
+SignedDistance signed_distance(const Cylinder& a, const Pose& pose_a, const Sphere& b,
+                               const Pose& pose_b) {
+  return find_signed_distance<SphereRoutine>(a, pose_a, b, pose_b);
+}
+CertifiedDistance certified_distance(const Cylinder& a, const Pose& pose_a, const Sphere& b,
+                                     const Pose& pose_b) {
+  return find_certified_distance<SphereRoutine>(a, pose_a, b, pose_b);
+}
+bool overlaps(const Cylinder& a, const Pose& pose_a, const Sphere& b, const Pose& pose_b) {
+  return find_overlap<SphereRoutine>(a, pose_a, b, pose_b);
+}
+Contact contact(const Cylinder& a, const Pose& pose_a, const Sphere& b, const Pose& pose_b,
+                double contact_threshold, const Vec3* previous_normal, PointRange range) {
+  return find_contact<SphereRoutine>(a, pose_a, b, pose_b, contact_threshold, previous_normal,
+                                     range);
+}
 
 }  // namespace touchstone

@@ -371,22 +371,4 @@ Contact find_contact(const Cylinder& a, const Pose& pose_a, const Other& b, cons
   return contact_in_range<Routine>(pair, contact_threshold, previous_normal, range);
 }
 
-/// Defines the functions that a pair's header declares, by its routine.
-#define TOUCHSTONE_DEFINE_QUESTIONS(Other, Routine)                                                \
-  SignedDistance signed_distance(const Cylinder& a, const Pose& pose_a, const Other& b,            \
-                                 const Pose& pose_b) {                                             \
-    return find_signed_distance<Routine>(a, pose_a, b, pose_b);                                    \
-  }                                                                                                \
-  CertifiedDistance certified_distance(const Cylinder& a, const Pose& pose_a, const Other& b,      \
-                                       const Pose& pose_b) {                                       \
-    return find_certified_distance<Routine>(a, pose_a, b, pose_b);                                 \
-  }                                                                                                \
-  bool overlaps(const Cylinder& a, const Pose& pose_a, const Other& b, const Pose& pose_b) {       \
-    return find_overlap<Routine>(a, pose_a, b, pose_b);                                            \
-  }                                                                                                \
-  Contact contact(const Cylinder& a, const Pose& pose_a, const Other& b, const Pose& pose_b,       \
-                  double contact_threshold, const Vec3* previous_normal, PointRange range) {       \
-    return find_contact<Routine>(a, pose_a, b, pose_b, contact_threshold, previous_normal, range); \
-  }
-
 }  // namespace touchstone

@@ -4,11 +4,6 @@
 #include <limits>
 
 #include "batch.hpp"
-#include "cylinder_box.hpp"
-#include "cylinder_capsule.hpp"
-#include "cylinder_cylinder.hpp"
-#include "cylinder_plane.hpp"
-#include "cylinder_sphere.hpp"
 
 namespace touchstone {
 namespace {

@@ -55,7 +55,7 @@ struct FloatContact {
   }
 };
 
-// As in cylinder_plane.hpp and its siblings. `Other` is Plane, Sphere, Capsule, Cylinder or Box.
+// As in contact.hpp. `Other` is Plane, Sphere, Capsule, Cylinder or Box.
 
 template <class Other>
 FloatSignedDistance signed_distance(const Cylinder& a, const FloatPose& pose_a, const Other& b,

@@ -6,11 +6,6 @@
 
 #include "batch.hpp"
 #include "contact.hpp"
-#include "cylinder_box.hpp"
-#include "cylinder_capsule.hpp"
-#include "cylinder_cylinder.hpp"
-#include "cylinder_plane.hpp"
-#include "cylinder_sphere.hpp"
 #include "invalid_input.hpp"
 #include "pose.hpp"
 #include "shape.hpp"

@@ -21,11 +21,6 @@
 #include "properties/identity.hpp"
 #include "reference/batch.hpp"
 #include "reference/contact_of.hpp"
-#include "reference/cylinder_box.hpp"
-#include "reference/cylinder_capsule.hpp"
-#include "reference/cylinder_cylinder.hpp"
-#include "reference/cylinder_plane.hpp"
-#include "reference/cylinder_sphere.hpp"
 #include "reference/single_precision.hpp"
 
 namespace touchstone {
