@@ -83,11 +83,8 @@ struct Arc {
     constexpr double hair = 1e-7;  // as in angle_between
     return cross < 0 && (dot < 0 || cross < -hair * dot);
   }
-  /// Is the circle's place in this direction from the centre on the arc?
-  bool holds(const Vec2& direction) const {
-    return holds(cross2(to_p, direction), cross2(direction, to_q));
-  }
-  /// The same of a direction with these products: of p with it, and of it with q.
+  /// Is the circle's place in a direction from the centre on the arc, which has these products: of
+  /// p with it, and of it with q?
   bool holds(double after_p, double before_q) const {
     if (after_p >= 0) return before_q >= 0 || beyond_half_a_turn();
     return before_q >= 0 && beyond_half_a_turn();
@@ -103,15 +100,6 @@ ArcPolygon::ArcPolygon(const Circle& circle, const Strip& first, const Strip& se
     : circle_(circle) {
   const double r = circle.radius, x1 = first.across.x(), y1 = first.across.y();
   const double turn = cross2(first.across, second.across), side = std::copysign(1, turn);
-  constexpr double min_turn = 0.1;
-  if (!(std::abs(turn) > min_turn)) {  // corners lie too far off to be placed
-    is_disc_ = true;
-    for (const Strip& strip : {first, second}) {
-      clip(strip.across, strip.half_width + strip.middle);
-      clip(-strip.across, strip.half_width - strip.middle);
-    }
-    return;
-  }
   const double x2 = side * second.across.x(), y2 = side * second.across.y();
   const double offset1 = first.across.dot(circle.centre) - first.middle;
   const double offset2 = side * (second.across.dot(circle.centre) - second.middle);
@@ -169,73 +157,6 @@ void ArcPolygon::merge_closer_than(double distance) {
   }
   while (kept > 1 && are_close(vertices_[kept - 1], vertices_[0])) --kept;
   count_ = kept;
-}
-
-void ArcPolygon::clip(const Vec2& normal, double bound) {
-  // Component by component: Eigen would load in pairs what was just stored singly, which stalls.
-  const double nx = normal.x(), ny = normal.y();
-  // How far along the normal the line passes the circle's centre, in radii; the circle leaves the
-  // half plane and returns to it at these places, as seen from the centre.
-  const double r = circle_.radius;
-  const double at = (bound - (nx * circle_.centre.x() + ny * circle_.centre.y())) / r;
-  const double sine = std::sqrt(std::max(0.0, (1 - at) * (1 + at)));
-  const Vec2 leaves(r * (at * nx + sine * ny), r * (at * ny - sine * nx));
-  const Vec2 returns(r * (at * nx - sine * ny), r * (at * ny + sine * nx));
-
-  if (is_disc_) {
-    if (at >= 1 - sliver) return;
-    is_disc_ = false;
-    if (at <= -1) return;
-    add(circle_.centre + leaves, straight);
-    add(circle_.centre + returns, round);
-    return;
-  }
-  const int count = count_;
-  if (count == 0) return;
-  std::array<Vertex, max_vertices> before;
-  std::copy_n(vertices_.begin(), count, before.begin());
-  count_ = 0;
-  const auto beyond = [&](const Vec2& x) { return nx * x.x() + ny * x.y() - bound; };
-  double q_beyond = beyond(before[0].at);
-  for (int i = 0; i < count; ++i) {
-    const Vertex& vertex = before[i];
-    const Vec2 &p = vertex.at, &q = before[i + 1 < count ? i + 1 : 0].at;
-    const double p_beyond = q_beyond;
-    q_beyond = beyond(q);
-    const bool p_stays = p_beyond <= 0, q_stays = q_beyond <= 0;
-    if (count_ + 3 > max_vertices) return;  // cannot happen for the cuts of a patch
-    if (p_stays) add(p, vertex.side);
-    if (vertex.side == straight) {
-      if (p_stays != q_stays) add(p + p_beyond / (p_beyond - q_beyond) * (q - p), straight);
-      continue;
-    }
-    const Vec2& centre = circle_.centre;
-    if (at >= 1 - sliver) {
-      if (!p_stays) add(p, vertex.side);
-      continue;
-    }
-    if (at <= -1) continue;
-    if (p_stays && !q_stays) {
-      add(centre + leaves, straight);
-      continue;
-    }
-    if (!p_stays && q_stays) {
-      add(centre + returns, vertex.side);
-      continue;
-    }
-    const Arc arc(centre, p, q);
-    // Does it pass the place that is the farthest along the normal, or the least far? (Where the
-    // line meets an end of the arc, rounding may put a crossing beyond it.)
-    if (!arc.holds(p_stays ? normal : Vec2(-normal))) continue;
-    const bool holds_out = arc.holds(leaves), holds_back = arc.holds(returns);
-    if (p_stays) {
-      add(holds_out ? Vec2(centre + leaves) : p, straight);
-      add(holds_back ? Vec2(centre + returns) : q, vertex.side);
-    } else {
-      add(holds_back ? Vec2(centre + returns) : p, vertex.side);
-      add(holds_out ? Vec2(centre + leaves) : q, straight);
-    }
-  }
 }
 
 ArcPolygon::Extremes ArcPolygon::extremes(const Vec2& unit) const {

@@ -28,25 +28,20 @@ struct Strip {
   double middle, half_width;
 };
 
-/// A convex region of a plane, bounded counter-clockwise by straight edges and by arcs of a
-/// circle: a contact patch. Fixed size, no allocation.
+/// What a disc shares with the part of a face that lies between its edges, a contact patch: a
+/// convex region of a plane, bounded counter-clockwise by straight edges and by arcs of the circle.
+/// Fixed size, no allocation.
 class ArcPolygon {
  public:
-  static constexpr int max_vertices = 16;
   /// A part of a circle that is no farther than this from its end is not cut off, in radii.
   static constexpr double sliver = 1e-12;
 
-  /// The disc within `circle`.
-  explicit ArcPolygon(const Circle& circle) : circle_(circle), is_disc_(true) {}
-  /// What the disc shares with two strips that cross, whose `across` are unit vectors. A sliver
-  /// thinner than `uncut`, in radii, is not cut off by one edge alone.
+  /// The strips' `across` are unit vectors and nearly at right angles, as those of a face are that
+  /// leans by no more than counts as facing (`facing_part`). A sliver thinner than `uncut`, in
+  /// radii, is not cut off by one edge alone.
   ArcPolygon(const Circle& circle, const Strip& first, const Strip& second, double uncut = sliver);
   ArcPolygon(const ArcPolygon&) = delete;
   ArcPolygon& operator=(const ArcPolygon&) = delete;
-
-  /// Keeps the points with normal·x <= bound; `normal` is a unit vector. A sliver thinner than
-  /// 1e-12 of an arc's radius is not cut off.
-  void clip(const Vec2& normal, double bound);
 
   bool empty() const { return count_ == 0 && !is_disc_; }
   /// The points that are farthest along and against a direction.
@@ -70,11 +65,12 @@ class ArcPolygon {
     Side side;  ///< the one that leaves it
   };
 
+  static constexpr int max_vertices = 8;  // the ends of four edges
+
   /// Leaves out edges of this length and less.
   void merge_closer_than(double distance);
 
   int next(int i) const { return i + 1 < count_ ? i + 1 : 0; }
-  void add(const Vec2& at, Side side) { vertices_[count_++] = {at, side}; }
 
   Circle circle_;
   std::array<Vertex, max_vertices> vertices_;
