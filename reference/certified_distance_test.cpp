@@ -5,47 +5,39 @@
 // TOUCHSTONE_COUNT times a few configurations are drawn of each kind; by default 100.
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <gtest/gtest.h>
 #include <limits>
-#include <random>
 #include <vector>
 
 #include "oracle/truth.hpp"
 #include "reference/contact_of.hpp"
 #include "reference/curves.hpp"
+#include "reference/random_bodies_test.hpp"
 #include "reference/rims.hpp"
 
 namespace touchstone {
 namespace {
 
-std::uint64_t draws() {
-  const char* text = std::getenv("TOUCHSTONE_COUNT");
-  return text ? std::strtoull(text, nullptr, 10) : 100;
-}
+std::uint64_t draws() { return tried_of_each(100); }
 
 /// Pairs that rounding has most to do with: sizes of 1e-6 to 1e6 beside each other, quaternions of
 /// any length, axes at any angle or nearly parallel or across, up to 1e6 from the world's origin,
 /// deep, touching or apart.
-class Uneven {
+class Uneven : public Random {
  public:
-  explicit Uneven(std::uint64_t index) : random_(index) {}
+  using Random::Random;
 
-  double uniform(double lo, double hi) { return std::uniform_real_distribution(lo, hi)(random_); }
-  double power(double lo, double hi) { return std::pow(10, uniform(lo, hi)); }
-  bool toss() { return uniform(0, 1) < 0.5; }
-  Vec3 direction() {
-    std::normal_distribution<double> normal;
-    return Vec3(normal(random_), normal(random_), normal(random_)).normalized();
-  }
-  double size() { return toss() ? uniform(0.2, 2) : power(-3, 3); }
+  double size() { return toss() ? uniform(0.2, 2) : power_of_ten(-3, 3); }
 
   Configuration of(Pair pair) {
-    Configuration c{Cylinder(size(), size()), Pose(), shape(pair), Pose()};
+    const auto plane = [&] { return Plane(power_of_ten(-3, 3) * direction(), uniform(-2, 2)); };
+    const Shape b = shape_of_sizes(
+        pair, [&] { return size(); }, plane);
+    Configuration c{Cylinder(size(), size()), Pose(), b, Pose()};
     const Eigen::Quaterniond turn = any_turn();
-    const Eigen::Quaterniond lean(Eigen::AngleAxisd(power(-17, 0), direction()));
+    const Eigen::Quaterniond lean(Eigen::AngleAxisd(power_of_ten(-17, 0), direction()));
     const Eigen::Quaterniond turn_a = toss() ? any_turn() : lean * turn;
-    const Vec3 origin = toss() ? Vec3(Vec3::Zero()) : Vec3(power(0, 6) * direction());
+    const Vec3 origin = toss() ? Vec3(Vec3::Zero()) : Vec3(power_of_ten(0, 6) * direction());
     const double reach = pair == Pair::plane ? larger_size(c) : larger_size(c) + c.a.radius();
     const Vec3 d = uniform(0, 2) * reach * direction();
     c.pose_a = Pose(origin + d, stretched(turn_a));
@@ -60,24 +52,8 @@ class Uneven {
     return Eigen::Quaterniond(Eigen::AngleAxisd(toss() ? angle : 3.14159265, v));
   }
   Eigen::Quaterniond stretched(const Eigen::Quaterniond& q) {
-    return Eigen::Quaterniond(Eigen::Vector4d(power(-3, 3) * q.coeffs()));
+    return Eigen::Quaterniond(Eigen::Vector4d(power_of_ten(-3, 3) * q.coeffs()));
   }
-  Shape shape(Pair pair) {
-    switch (pair) {
-      case Pair::plane:
-        return Plane(power(-3, 3) * direction(), uniform(-2, 2));
-      case Pair::sphere:
-        return Sphere(size());
-      case Pair::capsule:
-        return Capsule(size(), size());
-      case Pair::cylinder:
-        return Cylinder(size(), size());
-      default:
-        return Box(Vec3(size(), size(), size()));
-    }
-  }
-
-  std::mt19937_64 random_;
 };
 
 bool holds(const CertifiedDistance& answer, double sigma) {
@@ -108,10 +84,7 @@ TEST_P(CertifiedOfUneven, TheTruthIsWithinTheBoundWhichIsNoMoreThanRounding) {
               parts.back());
 }
 
-std::string certified_pair_name(const testing::TestParamInfo<Pair>& pair) {
-  return std::string(pair_name(pair.param)).substr(std::string("cylinder-").size());
-}
-INSTANTIATE_TEST_SUITE_P(, CertifiedOfUneven, testing::ValuesIn(all_pairs), certified_pair_name);
+INSTANTIATE_TEST_SUITE_P(, CertifiedOfUneven, testing::ValuesIn(all_pairs), name_of_other);
 
 FoldedCylinders folded_cylinders(const Configuration& c) {
   const Cylinder& b = std::get<Cylinder>(c.b);
@@ -127,7 +100,7 @@ TEST(CertifiedStages, AGapInTheFoldedFrameIsThatOfTheExactBodiesButForRounding) 
     const Configuration c = random.of(Pair::cylinder);
     const FoldedCylinders pair = folded_cylinders(c);
     const Vec3 n = random.direction();
-    const double length = random.toss() ? 1 : random.power(-3, 3);
+    const double length = random.toss() ? 1 : random.power_of_ten(-3, 3);
     // Back in the world the normal is rounded, too: by less than 8 units.
     const double bound =
         (rounding_part + 8 * unit_roundoff + pair.axes.unit_error()) * pair.lengths();
@@ -171,9 +144,9 @@ TEST(CertifiedStages, PointsOfRimsAreRoundedByNoMoreThanTheMarginsOfTheSearch) {
     const double angle = random.uniform(0, 3.1415), cosine = std::cos(angle);
     const double sine = std::sin(angle);
     if (random.toss()) {  // next to axis 2, or at it
-      const double near = random.power(-18, 0);
+      const double near = random.power_of_ten(-18, 0);
       f.d1 = pair.h1, f.d2 = pair.r1 * cosine + near * f.c, f.d3 = pair.r1 * sine + near;
-      pair.h2 = random.power(-3, 0);
+      pair.h2 = random.power_of_ten(-3, 0);
     }
     const Rims rims(pair, 1, 1);
     // As it is computed there.
@@ -212,9 +185,9 @@ TEST(CertifiedStages, NoNormalBesideAnEllipseExceedsWhatIsClaimedOfTheFoot) {
   int tight = 0, of_feet = 0;
   for (std::uint64_t i = 0; i < 50 * draws(); ++i) {
     Uneven random(i);
-    const double a = random.power(-1, 1);
-    const double b = a * (random.toss() ? random.uniform(0, 1) : random.power(-8, 0));
-    const double x = random.toss() ? random.uniform(0, 2 * a) : a * random.power(-8, 0);
+    const double a = random.power_of_ten(-1, 1);
+    const double b = a * (random.toss() ? random.uniform(0, 1) : random.power_of_ten(-8, 0));
+    const double x = random.toss() ? random.uniform(0, 2 * a) : a * random.power_of_ten(-8, 0);
     const double y = random.uniform(-1, 1) * (random.toss() ? 2 * a : b);
     double first = 0, last = quarter;
     NormalArc arc;
@@ -229,7 +202,8 @@ TEST(CertifiedStages, NoNormalBesideAnEllipseExceedsWhatIsClaimedOfTheFoot) {
     std::optional<Vec2> n = ellipse_normal(a, b, x, y);
     const bool is_foot = n.has_value();
     if (n && random.toss()) {  // off the foot
-      const double off = std::clamp(std::atan2(n->y(), n->x()) + random.power(-9, -1), 0.0, 1.5);
+      const double off =
+          std::clamp(std::atan2(n->y(), n->x()) + random.power_of_ten(-9, -1), 0.0, 1.5);
       n = Vec2(std::cos(off), std::sin(off));
     }
     double best = gap_along(a, b, x, y, first);
@@ -238,7 +212,7 @@ TEST(CertifiedStages, NoNormalBesideAnEllipseExceedsWhatIsClaimedOfTheFoot) {
       const double angle = std::atan2(n->y(), n->x());
       if (angle >= first && angle <= last) best = std::max(best, gap_along(a, b, x, y, angle));
     }
-    if (random.toss()) best += a * random.power(-9, 0);  // another stage found a better one
+    if (random.toss()) best += a * random.power_of_ten(-9, 0);  // another stage found a better one
     const double excess = ellipse_excess(a, b, x, y, n, -best, arc);
     double largest = best;
     constexpr int places = 300;

@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 #include <limits>
 #include <numbers>
-#include <random>
 #include <rapidcheck.h>
 #include <string>
 
@@ -15,6 +14,7 @@
 #include "reference/box_sides.hpp"
 #include "reference/contact_of.hpp"
 #include "reference/curves.hpp"
+#include "reference/random_bodies_test.hpp"
 
 namespace touchstone {
 namespace {
@@ -205,13 +205,9 @@ struct Counts {
 
 /// Along how many random normals is the gap larger than along one that is said to have the largest?
 template <class Pair>
-int larger_gaps(const Pair& pair, double gap, std::mt19937_64& random) {
-  std::normal_distribution<double> normal;
+int larger_gaps(const Pair& pair, double gap, Random& random) {
   int count = 0;
-  for (int i = 0; i < 500; ++i) {
-    const Vec3 n = Vec3(normal(random), normal(random), normal(random)).normalized();
-    count += pair.gap(n) > gap + 1e-13;
-  }
+  for (int i = 0; i < 500; ++i) count += pair.gap(random.direction()) > gap + 1e-13;
   return count;
 }
 
@@ -222,14 +218,14 @@ FoldedCylinders folded(const Configuration& x) {
 }
 
 template <class Pair>
-void count(const Pair& pair, const Vec3& n, bool proven, std::mt19937_64& random, Counts& counts) {
+void count(const Pair& pair, const Vec3& n, bool proven, Random& random, Counts& counts) {
   if (!proven) return;
   ++counts.proven;
   counts.contradicted += larger_gaps(pair, pair.gap(n), random) > 0;
 }
 
 TEST(DeepNormals, AreProvenOnlyWhereNoNormalHasALargerGap) {
-  std::mt19937_64 random(1);
+  Random random(1);
   Counts cap, crossing;
   for (const char* name : {"general-deep", "concentric", "aspect-coin-deep"}) {
     for (std::uint64_t i = 0; i < 1000; ++i) {
@@ -294,22 +290,17 @@ TEST(DeepNormals, OfRimsThatOverlapDeeplyAreNotMissed) {
 
 /// Cylinders of any sizes and axes whose rims meet at a normal, where the gap has a maximum.
 TEST(DeepNormals, OfRimsAreNeverTooDeepForAMaximum) {
-  std::mt19937_64 random(5);
-  std::normal_distribution<double> normal;
-  std::uniform_real_distribution<double> exponent(-0.5, 0.5), part(0, 1);
-  const auto unit = [&] {
-    return Vec3(normal(random), normal(random), normal(random)).normalized();
-  };
+  Random random(5);
   int maxima = 0, too_deep_by_10 = 0;
   for (int i = 0; i < 20000; ++i) {
-    const Vec3 n = unit(), u1 = unit(), u2 = unit();
-    const double r1 = std::pow(10, exponent(random)), r2 = std::pow(10, exponent(random));
+    const Vec3 n = random.direction(), u1 = random.direction(), u2 = random.direction();
+    const double r1 = random.power_of_ten(-0.5, 0.5), r2 = random.power_of_ten(-0.5, 0.5);
     const double rho1 = u1.cross(n).norm(), rho2 = u2.cross(n).norm();
     const double k1 = r1 / rho1, k2 = r2 / rho2;
     const double squared = u1.cross(n).cross(u2.cross(n)).squaredNorm() / std::pow(rho1 * rho2, 2);
     // The smaller eigenvalue of the rims' Hessian.
     const double deepest = (k1 + k2 - std::sqrt((k1 + k2) * (k1 + k2) - 4 * k1 * k2 * squared)) / 2;
-    const double depth = part(random) * deepest;
+    const double depth = random.uniform(0, 1) * deepest;
     const auto rim = [&](const Vec3& u, double r) {
       return Vec3(std::copysign(1, u.dot(n)) * u + r * (n - n.dot(u) * u).normalized());
     };
@@ -341,7 +332,7 @@ Vec3 best_normal(const Configuration& x, const FoldedAxes& f) {
 }
 
 TEST(DeepNormals, OfRimsThatBendAwayHaveTheLargestGap) {
-  std::mt19937_64 random(1);
+  Random random(1);
   Counts shallow, near_axis;
   for (const char* name : {"rim-rim", "near-parallel-1e-2", "near-parallel-1e-6"}) {
     for (std::uint64_t i = 0; i < 1000; ++i) {
@@ -379,24 +370,19 @@ TEST(DeepNormals, OfRimsThatBendAwayHaveTheLargestGap) {
 /// Cylinders of any sizes and axes whose rims meet at a normal, at depths that can be proven and
 /// such as cannot.
 TEST(DeepNormals, OfRimsThatBendAwayAreProvenUpToTheirDepth) {
-  std::mt19937_64 random(2);
-  std::normal_distribution<double> normal;
-  std::uniform_real_distribution<double> exponent(-1, 1), up_to_two(0, 2);
-  const auto unit = [&] {
-    return Vec3(normal(random), normal(random), normal(random)).normalized();
-  };
-  const auto size = [&] { return std::pow(10, exponent(random)); };
+  Random random(2);
+  const auto size = [&] { return random.power_of_ten(-1, 1); };
   Counts counts;
   int deeper = 0;
   for (int i = 0; i < 4000; ++i) {
-    const Vec3 n = unit(), u1 = unit(), u2 = unit();
+    const Vec3 n = random.direction(), u1 = random.direction(), u2 = random.direction();
     const double r1 = size(), h1 = size(), r2 = std::max(r1, size()), h2 = size();
     const auto rim = [&](const Vec3& u, double r, double h) {
       return Vec3(std::copysign(h, u.dot(n)) * u + r * (n - n.dot(u) * u).normalized());
     };
     const Vec3 t1 = u1.cross(n).normalized(), t2 = u2.cross(n).normalized();
     const double squared = t1.cross(t2).squaredNorm();
-    const double depth = up_to_two(random) * r1 * r2 / (r1 + r2) * squared;
+    const double depth = random.uniform(0, 2) * r1 * r2 / (r1 + r2) * squared;
     const FoldedAxes axes(u1, u2, rim(u1, r1, h1) + rim(u2, r2, h2) - depth * n);
     const FoldedCylinders pair{axes, r1, h1, r2, h2};
     const Vec3 folded(n.dot(axes.e1), n.dot(axes.e2), n.dot(axes.e3));
@@ -423,21 +409,21 @@ struct CylinderAndBox {
 
 /// An edge that goes on for L beyond the point where it meets a rim counts as a disc of radius 2 L.
 TEST(DeepNormals, OfRimsOnEdgesAreProvenUpToTheirDepth) {
-  std::mt19937_64 random(3);
-  std::normal_distribution<double> normal;
-  std::uniform_real_distribution<double> exponent(-1, 1), up_to_two(0, 2), within(-1, 1);
-  const auto size = [&] { return std::pow(10, exponent(random)); };
+  Random random(3);
+  const auto size = [&] { return random.power_of_ten(-1, 1); };
   Counts counts;
   int deeper = 0;
   for (int i = 0; i < 6000; ++i) {
     CylinderAndBox pair{size(), size(), {}, {size(), size(), size()}, {}};
-    pair.u = Vec3(normal(random), normal(random), normal(random)).normalized();
-    const Vec3 n = Vec3(normal(random), normal(random), 0).normalized();  // the edge is along z
+    pair.u = random.direction();
+    const double heading = random.uniform(-3.1416, 3.1416);
+    const Vec3 n(std::cos(heading), std::sin(heading), 0);  // the edge is along z
     const Vec3 on_edge(std::copysign(pair.e.x(), n.x()), std::copysign(pair.e.y(), n.y()),
-                       within(random) * pair.e.z());
+                       random.uniform(-1, 1) * pair.e.z());
     const double sine = pair.u.cross(n).norm(), beyond = pair.e.z() - std::abs(on_edge.z());
     const double squared = pair.u.z() * pair.u.z() / (sine * sine);
-    const double depth = up_to_two(random) * pair.r * 2 * beyond / (pair.r + 2 * beyond) * squared;
+    const double depth =
+        random.uniform(0, 2) * pair.r * 2 * beyond / (pair.r + 2 * beyond) * squared;
     pair.d = on_edge - depth * n + std::copysign(pair.h, pair.u.dot(n)) * pair.u +
              pair.r / sine * (n - n.dot(pair.u) * pair.u);
     EXPECT_NEAR(pair.gap(n), -depth, 1e-13 * (pair.r + pair.h + pair.e.sum()));
@@ -452,7 +438,7 @@ TEST(DeepNormals, OfRimsOnEdgesAreProvenUpToTheirDepth) {
 }
 
 TEST(DeepNormals, OfBoxesThatProveThemselvesHaveTheLargestGap) {
-  std::mt19937_64 random(4);
+  Random random(4);
   Counts counts;
   int deep = 0;
   for (const char* name : {"general-shallow", "general-deep", "concentric", "cap-on-face-offset",

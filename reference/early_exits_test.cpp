@@ -2,35 +2,23 @@
 // draws pairs of cylinders that attack one of them: it held of most, and was false of some.
 //
 // TOUCHSTONE_COUNT times a hundred and more pairs are drawn of each kind; by default 100.
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <gtest/gtest.h>
 #include <string>
 
 #include "oracle/truth.hpp"
 #include "reference/contact_of.hpp"
-#include "reference/rounding_made.hpp"
+#include "reference/rounding_made_test.hpp"
 
 namespace touchstone {
 namespace {
 
-constexpr double promised = 1e-13;  // of `scale`
-
-std::uint64_t count() {
-  const char* text = std::getenv("TOUCHSTONE_COUNT");
-  return text ? std::strtoull(text, nullptr, 10) : 100;
-}
-
-/// The larger size, or how far the bodies are apart.
-double scale(const Configuration& c) {
-  return std::max(larger_size(c), (c.pose_a.position() - c.pose_b.position()).norm());
-}
+std::uint64_t count() { return tried_of_each(100); }
 
 void expect_the_truth(const Configuration& c, std::uint64_t index) {
   const oracle::Truth truth = oracle::truth(c);
-  const double sigma = truth.signed_distance.midpoint(), rounding = promised * scale(c);
+  const double sigma = truth.signed_distance.midpoint(), rounding = promised * scale_of(c);
   const SignedDistance answer = signed_distance(c);
   EXPECT_NEAR(answer.value, sigma, rounding) << index;
   EXPECT_LE(oracle::normal_regret(c, truth, answer.normal), rounding) << index;
@@ -39,7 +27,7 @@ void expect_the_truth(const Configuration& c, std::uint64_t index) {
 
 /// Against `certified_distance`, which takes no early exit.
 void expect_no_short_cut_is_wrong(const Configuration& c, std::uint64_t index) {
-  const double sigma = certified_distance(c).value, rounding = promised * scale(c);
+  const double sigma = certified_distance(c).value, rounding = promised * scale_of(c);
   EXPECT_NEAR(signed_distance(c).value, sigma, rounding) << index;
   for (const double threshold : {0.0, 0.9 * sigma, 1.1 * sigma}) {
     if (std::abs(sigma - threshold) <= rounding) continue;
@@ -110,7 +98,7 @@ TEST(CertifiedDistance, BoundsHoldOfWhatAttacksProofs) {
       const double sigma = oracle::truth(c, 1e-20).signed_distance.midpoint();
       EXPECT_LE(std::abs(certified.value - sigma), certified.error_bound)
           << generator.name << " " << i;
-      const double bound = certified.error_bound / scale(c);
+      const double bound = certified.error_bound / scale_of(c);
       proven += bound <= promised;
       largest_bound = std::max(largest_bound, bound);
     }

@@ -12,7 +12,7 @@
 #include "reference/contact_of.hpp"
 #include "reference/curves.hpp"
 #include "reference/disc_layout.hpp"
-#include "reference/points_on_both.hpp"
+#include "reference/points_on_both_test.hpp"
 
 namespace touchstone {
 namespace {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <gtest/gtest.h>
 #include <random>
 #include <rapidcheck.h>
@@ -13,8 +12,9 @@
 #include <vector>
 
 #include "reference/contact_of.hpp"
-#include "reference/hull_movement.hpp"
-#include "reference/points_on_both.hpp"
+#include "reference/hull_movement_test.hpp"
+#include "reference/points_on_both_test.hpp"
+#include "reference/random_bodies_test.hpp"
 
 namespace touchstone {
 namespace {
@@ -184,9 +184,9 @@ TEST(ManifoldMotion, PointsStayWhenNothingVisibleChanges) {
 
 /// A cap or side at rest on a box or cap, whose sizes and places are so often equal, tangent or
 /// flush that rounding decides what lies within what.
-class FlushRest {
+class FlushRest : private Random {
  public:
-  explicit FlushRest(std::uint64_t index) : random_(index) {}
+  explicit FlushRest(std::uint64_t index) : Random(index) {}
 
   Configuration operator()() {
     const double r = size(), h = size();
@@ -204,38 +204,26 @@ class FlushRest {
   }
   /// The same, turned and shifted by what cannot be seen.
   Configuration moved(const Configuration& c) {
-    const double angle = power_of_ten(), length = power_of_ten();
+    const double angle = power_of_ten(-17, -9), length = power_of_ten(-17, -9);
     const Quaternion turn(1, angle * uniform(), angle * uniform(), 0);
     const Vec3 shift = length * smaller_size(c) * Vec3(uniform(), uniform(), uniform());
     return {c.a, Pose(c.pose_a.position() + shift, turn * c.pose_a.orientation()), c.b, c.pose_b};
   }
 
  private:
-  double uniform() { return std::uniform_real_distribution(-1.0, 1.0)(random_); }
-  double power_of_ten() {
-    return std::pow(10, std::uniform_real_distribution(-17.0, -9.0)(random_));
-  }
-  int one_of(int count) { return std::uniform_int_distribution(0, count - 1)(random_); }
-  bool toss() { return one_of(2) == 0; }
+  double uniform() { return Random::uniform(-1, 1); }
   double size() { return std::exp2(one_of(4) - 2); }
   double place(double edge, double reach) {
     const double places[] = {0, edge, edge - reach, reach, edge * uniform()};
-    return (toss() ? 1 : -1) * places[one_of(5)];
+    return sign() * places[one_of(5)];
   }
-
-  std::mt19937_64 random_;
 };
-
-std::uint64_t flush_rests() {
-  const char* text = std::getenv("TOUCHSTONE_COUNT");
-  return text ? std::strtoull(text, nullptr, 10) : 40000;
-}
 
 // A rim that is tangent to a face's edge, a corner on a rim, a side that only touches a rim: which
 // side of each other they lie on is rounding. Of a side over a rim, which it leaves by a hair, the
 // normal leans by the hair over the depth.
 TEST(ManifoldMotion, PointsStayWhereSizesAreEqualOrTangent) {
-  const std::uint64_t all = flush_rests();
+  const std::uint64_t all = tried_of_each(40000);
   std::uint64_t rests = 0;
   for (std::uint64_t i = 0; i < all; ++i) {
     FlushRest rest(i);

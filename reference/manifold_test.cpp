@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "reference/contact_of.hpp"
-#include "reference/points_on_both.hpp"
+#include "reference/points_on_both_test.hpp"
 
 namespace touchstone {
 namespace {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "reference/contact_of.hpp"
-#include "reference/hull_movement.hpp"
-#include "reference/points_on_both.hpp"
+#include "reference/hull_movement_test.hpp"
+#include "reference/points_on_both_test.hpp"
 
 namespace touchstone {
 namespace {

@@ -6,22 +6,17 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <gtest/gtest.h>
 #include <optional>
 #include <random>
 
 #include "reference/contact_of.hpp"
 #include "reference/invalid_input.hpp"
+#include "reference/random_bodies_test.hpp"
 #include "reference/support.hpp"
 
 namespace touchstone {
 namespace {
-
-std::uint64_t count_of_each(std::uint64_t by_default) {
-  const char* text = std::getenv("TOUCHSTONE_COUNT");
-  return text ? std::strtoull(text, nullptr, 10) : by_default;
-}
 
 class RawBits {
  public:
@@ -54,23 +49,12 @@ class RawBits {
     return Cylinder(radius, size());
   }
   Shape shape(Pair pair) {
-    switch (pair) {
-      case Pair::plane: {
-        const Vec3 normal = vector();
-        return Plane(normal, any());
-      }
-      case Pair::sphere:
-        return Sphere(size());
-      case Pair::capsule: {
-        const double radius = size();
-        return Capsule(radius, size());
-      }
-      case Pair::cylinder:
-        return cylinder();
-      case Pair::box:
-        return Box(vector().cwiseAbs());
-    }
-    return Sphere(1);
+    const auto plane = [&] {
+      const Vec3 normal = vector();
+      return Plane(normal, any());
+    };
+    return shape_of_sizes(
+        pair, [&] { return size(); }, plane);
   }
 
  private:
@@ -112,7 +96,7 @@ void expect_numbers(const Configuration& c) {
 class AnyBits : public testing::TestWithParam<Pair> {};
 
 TEST_P(AnyBits, AreAnsweredWithNumbers) {
-  const std::uint64_t count = count_of_each(20000);
+  const std::uint64_t count = tried_of_each(20000);
   std::uint64_t tried = 0;
   for (std::uint64_t seed = 0; tried < count; ++seed) {
     const std::optional<Configuration> c = configuration(seed, GetParam());
@@ -127,41 +111,21 @@ TEST_P(AnyBits, AreAnsweredWithNumbers) {
 /// Bodies of ordinary sizes that overlap or are apart by less than one of them, their axes at any
 /// angle or one that is small.
 Configuration ordinary(std::uint64_t seed, Pair pair) {
-  std::mt19937_64 random(seed);
-  const auto uniform = [&](double lo, double hi) {
-    return std::uniform_real_distribution(lo, hi)(random);
-  };
-  const auto size = [&] { return std::pow(10, uniform(-1.5, 1)); };
-  const auto any_turn = [&] {
-    const double w = uniform(-1, 1), x = uniform(-1, 1), y = uniform(-1, 1);
-    return Eigen::Quaterniond(w, x, y, uniform(-1, 1)).normalized();
-  };
-  const auto shape = [&]() -> Shape {
-    const double x = size(), y = size();
-    switch (pair) {
-      case Pair::plane:
-        return Plane(Vec3::UnitX(), x);  // a normal that is not rounded again
-      case Pair::sphere:
-        return Sphere(x);
-      case Pair::capsule:
-        return Capsule(x, y);
-      case Pair::cylinder:
-        return Cylinder(x, y);
-      default:
-        return Box(Vec3(x, y, size()));
-    }
-  };
+  Random random(seed);
+  const auto size = [&] { return random.power_of_ten(-1.5, 1); };
+  // A plane's normal that is not rounded again.
+  const Shape b = shape_of_sizes(pair, size, [&] { return Plane(Vec3::UnitX(), size()); });
   const double radius = size();
-  Configuration c{Cylinder(radius, size()), Pose(), shape(), Pose()};
-  const Eigen::Quaterniond turn_b = any_turn();
-  const double tilt = std::pow(10, uniform(-9, 0));
-  const Eigen::Quaterniond lean(Eigen::AngleAxisd(tilt, any_turn() * Vec3::UnitX()));
-  const Eigen::Quaterniond turn_a = seed % 2 == 0 ? lean * turn_b : any_turn();
-  const Vec3 n = any_turn() * Vec3::UnitX();
+  Configuration c{Cylinder(radius, size()), Pose(), b, Pose()};
+  const Eigen::Quaterniond turn_b = random.turn();
+  const double tilt = random.power_of_ten(-9, 0);
+  const Eigen::Quaterniond lean(Eigen::AngleAxisd(tilt, random.turn() * Vec3::UnitX()));
+  const Eigen::Quaterniond turn_a = seed % 2 == 0 ? lean * turn_b : random.turn();
+  const Vec3 n = random.turn() * Vec3::UnitX();
   c.pose_b = Pose(Vec3(size(), size(), size()), turn_b);
   c.pose_a = Pose(c.pose_b.position(), turn_a);
   const double room = pair == Pair::plane ? radius : -gap(c, n);
-  c.pose_a = Pose(c.pose_b.position() + uniform(0, 1.2) * room * n, turn_a);
+  c.pose_a = Pose(c.pose_b.position() + random.uniform(0, 1.2) * room * n, turn_a);
   return c;
 }
 
@@ -206,7 +170,7 @@ void expect_same_but_for_scale(const Configuration& c, double factor) {
 
 // Terms of different dimensions that are added or compared would show.
 TEST_P(AnyBits, AreTheSameWhateverTheUnitOfLength) {
-  for (std::uint64_t seed = 0; seed < count_of_each(10000); ++seed) {
+  for (std::uint64_t seed = 0; seed < tried_of_each(10000); ++seed) {
     SCOPED_TRACE(seed);
     const Configuration c = ordinary(seed, GetParam());
     expect_same_but_for_scale(c, 0x1p40);
@@ -215,9 +179,7 @@ TEST_P(AnyBits, AreTheSameWhateverTheUnitOfLength) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(, AnyBits, testing::ValuesIn(all_pairs), [](const auto& pair) {
-  return std::string(pair_name(pair.param)).substr(std::string("cylinder-").size());
-});
+INSTANTIATE_TEST_SUITE_P(, AnyBits, testing::ValuesIn(all_pairs), name_of_other);
 
 }  // namespace
 }  // namespace touchstone

@@ -40,9 +40,8 @@ ROOT = HERE.parent.parent
 REFERENCE = ROOT / "reference"
 LIMIT = 60  # seconds of each net
 CHECK_COUNT = "3"  # configurations of each pair, pose class and law
-FOR_TESTS = "points_on_both.hpp"
 C_INTERFACE = "touchstone_contacts.cpp"  # hands on; has a test of its own in C
-NOT_ROUTINES = ("_test.cpp", "_benchmark.cpp", C_INTERFACE, FOR_TESTS)
+NOT_ROUTINES = ("_test.cpp", "_test.hpp", C_INTERFACE)
 FLAGS = ["-std=c++20", "-O1", "-D_GLIBCXX_ASSERTIONS", "-fPIC", "-fno-math-errno", "-fvisibility=hidden", "-w",
          # What a fault leaves unset is the same in every run, and no valid value.
          "-ftrivial-auto-var-init=pattern",
@@ -90,7 +89,8 @@ class Library:
                  (not rest or any(m.file == n for m in drawn))]
         for name in sorted(self.sources, key=lambda n: n.endswith(".cpp")):
             self.write(name)
-        (self.tree / "reference" / FOR_TESTS).write_text((REFERENCE / FOR_TESTS).read_text())
+        for header in REFERENCE.glob("*_test.hpp"):
+            (self.tree / "reference" / header.name).write_text(header.read_text())
         with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
             while True:
                 results = list(pool.map(self.compile, units))
@@ -110,7 +110,8 @@ class Library:
     def compile(self, name):
         """The errors of one file, empty if there are none."""
         source = self.tree / "reference" / name
-        return self.compile_to(self.objects / (name + ".o"), source, ["-I", self.tree])
+        return self.compile_to(self.objects / (name + ".o"), source,
+                               ["-I", self.tree, "-I", ROOT])  # of the tests: poses of properties/
 
     def compile_to(self, target, source, flags):
         # With every header of the tree: which of them a file includes is not asked.

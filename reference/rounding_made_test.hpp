@@ -2,17 +2,16 @@
 
 #include <cmath>
 #include <cstdint>
-#include <random>
 
-#include "reference/configuration.hpp"
+#include "reference/random_bodies_test.hpp"
 
 namespace touchstone {
 
 /// Random pairs of cylinders as rounding makes them, and others that attack one early exit of the
 /// search each (proofs.md, "Where a search ends early"). Each index has its own configuration.
-class RoundingMade {
+class RoundingMade : private Random {
  public:
-  explicit RoundingMade(std::uint64_t index) : random_(index) {}
+  explicit RoundingMade(std::uint64_t index) : Random(index) {}
 
   /// Bodies whose axes are parallel, opposite or across each other, and whose caps and sides lie
   /// within each other, flush, touching, or beyond, in every combination: also beyond both. The
@@ -80,15 +79,7 @@ class RoundingMade {
  private:
   using Quaternion = Eigen::Quaterniond;
 
-  double uniform(double lo, double hi) { return std::uniform_real_distribution(lo, hi)(random_); }
-  double power_of_ten(double lo, double hi) { return std::pow(10, uniform(lo, hi)); }
-  int one_of(int count) { return std::uniform_int_distribution(0, count - 1)(random_); }
-  bool toss() { return one_of(2) == 0; }
-  double sign() { return toss() ? 1 : -1; }
   double size() { return toss() ? uniform(0.2, 2) : std::exp2(one_of(5) - 2); }
-  Quaternion turn() {
-    return Quaternion(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)).normalized();
-  }
 
   /// How far two features are from each other that reach by x and y from their centres.
   double place(double x, double y) {
@@ -161,8 +152,6 @@ class RoundingMade {
     const Quaternion frame = turn();
     return {a, Pose(frame * d, frame * relation), b, Pose(Vec3::Zero(), frame)};
   }
-
-  std::mt19937_64 random_;
 };
 
 }  // namespace touchstone
