@@ -13,23 +13,7 @@ float rounded(double x) {
   return static_cast<float>(std::clamp(x, -most, most));
 }
 Eigen::Vector3f rounded(const Vec3& x) { return {rounded(x.x()), rounded(x.y()), rounded(x.z())}; }
-FloatSignedDistance rounded(const SignedDistance& x) {
-  return {rounded(x.value), rounded(x.normal)};
-}
-bool rounded(bool x) { return x; }
-void round_into(const Contact& from, FloatContact& to) {
-  to.normal = rounded(from.normal);
-  to.signed_distance = rounded(from.signed_distance);
-  to.point_count = 0;
-  for (const ContactPoint& p : from.points()) {
-    to.all_points[static_cast<std::size_t>(to.point_count++)] = {rounded(p.position),
-                                                                 rounded(p.depth)};
-  }
-}
-template <class Answer, class FloatAnswer>
-void round_into(const Answer& from, FloatAnswer& to) {
-  to = rounded(from);
-}
+void round_into(bool from, bool& to) { to = from; }
 
 /// Calls ask(poses_a, poses_b, results) of poses in double, some after the others.
 template <class Answer, class FloatAnswer, class Ask>
@@ -58,71 +42,37 @@ FloatPose::FloatPose(const Eigen::Vector3f& position, const Eigen::Quaternionf& 
   in_double();  // throws, and names what is wrong
 }
 
-template <class Other>
-FloatSignedDistance signed_distance(const Cylinder& a, const FloatPose& pose_a, const Other& b,
-                                    const FloatPose& pose_b) {
-  return rounded(signed_distance(a, pose_a.in_double(), b, pose_b.in_double()));
+void round_into(const SignedDistance& from, FloatSignedDistance& to) {
+  to = {rounded(from.value), rounded(from.normal)};
 }
-template <class Other>
-bool overlaps(const Cylinder& a, const FloatPose& pose_a, const Other& b, const FloatPose& pose_b) {
-  return overlaps(a, pose_a.in_double(), b, pose_b.in_double());
-}
-template <class Other>
-FloatContact contact(const Cylinder& a, const FloatPose& pose_a, const Other& b,
-                     const FloatPose& pose_b, float contact_threshold,
-                     const Eigen::Vector3f* previous_normal, PointRange range) {
-  const Vec3 previous = previous_normal ? previous_normal->cast<double>() : Vec3(Vec3::Zero());
-  FloatContact result;
-  round_into(contact(a, pose_a.in_double(), b, pose_b.in_double(), contact_threshold,
-                     previous_normal ? &previous : nullptr, range),
-             result);
-  return result;
+void round_into(const Contact& from, FloatContact& to) {
+  to.normal = rounded(from.normal);
+  to.signed_distance = rounded(from.signed_distance);
+  to.point_count = 0;
+  for (const ContactPoint& p : from.points()) {
+    to.all_points[static_cast<std::size_t>(to.point_count++)] = {rounded(p.position),
+                                                                 rounded(p.depth)};
+  }
 }
 
-template <class Other>
-void signed_distance(const Cylinder& a, std::span<const FloatPose> poses_a, const Other& b,
+void signed_distance(const Cylinder& a, std::span<const FloatPose> poses_a, const Shape& b,
                      std::span<const FloatPose> poses_b, std::span<FloatSignedDistance> results) {
-  ask_in_double<SignedDistance>(
-      poses_a, poses_b, results,
-      [&](std::span<const Pose> in_a, std::span<const Pose> in_b, std::span<SignedDistance> out) {
-        signed_distance(a, in_a, b, in_b, out);
-      });
+  ask_in_double<SignedDistance>(poses_a, poses_b, results, [&](auto in_a, auto in_b, auto answers) {
+    signed_distance(a, in_a, b, in_b, answers);
+  });
 }
-template <class Other>
-void overlaps(const Cylinder& a, std::span<const FloatPose> poses_a, const Other& b,
+void overlaps(const Cylinder& a, std::span<const FloatPose> poses_a, const Shape& b,
               std::span<const FloatPose> poses_b, std::span<bool> results) {
-  ask_in_double<bool>(poses_a, poses_b, results,
-                      [&](std::span<const Pose> in_a, std::span<const Pose> in_b,
-                          std::span<bool> out) { overlaps(a, in_a, b, in_b, out); });
+  ask_in_double<bool>(poses_a, poses_b, results, [&](auto in_a, auto in_b, auto answers) {
+    overlaps(a, in_a, b, in_b, answers);
+  });
 }
-template <class Other>
-void contact(const Cylinder& a, std::span<const FloatPose> poses_a, const Other& b,
+void contact(const Cylinder& a, std::span<const FloatPose> poses_a, const Shape& b,
              std::span<const FloatPose> poses_b, float contact_threshold,
              std::span<FloatContact> results, PointRange range) {
-  ask_in_double<Contact>(
-      poses_a, poses_b, results,
-      [&](std::span<const Pose> in_a, std::span<const Pose> in_b, std::span<Contact> out) {
-        contact(a, in_a, b, in_b, contact_threshold, out, range);
-      });
+  ask_in_double<Contact>(poses_a, poses_b, results, [&](auto in_a, auto in_b, auto answers) {
+    contact(a, in_a, b, in_b, contact_threshold, answers, range);
+  });
 }
-
-#define TOUCHSTONE_INSTANTIATE(Other)                                                              \
-  template FloatSignedDistance signed_distance(const Cylinder&, const FloatPose&, const Other&,    \
-                                               const FloatPose&);                                  \
-  template bool overlaps(const Cylinder&, const FloatPose&, const Other&, const FloatPose&);       \
-  template FloatContact contact(const Cylinder&, const FloatPose&, const Other&, const FloatPose&, \
-                                float, const Eigen::Vector3f*, PointRange);                        \
-  template void signed_distance(const Cylinder&, std::span<const FloatPose>, const Other&,         \
-                                std::span<const FloatPose>, std::span<FloatSignedDistance>);       \
-  template void overlaps(const Cylinder&, std::span<const FloatPose>, const Other&,                \
-                         std::span<const FloatPose>, std::span<bool>);                             \
-  template void contact(const Cylinder&, std::span<const FloatPose>, const Other&,                 \
-                        std::span<const FloatPose>, float, std::span<FloatContact>, PointRange)
-TOUCHSTONE_INSTANTIATE(Plane);
-TOUCHSTONE_INSTANTIATE(Sphere);
-TOUCHSTONE_INSTANTIATE(Capsule);
-TOUCHSTONE_INSTANTIATE(Cylinder);
-TOUCHSTONE_INSTANTIATE(Box);
-#undef TOUCHSTONE_INSTANTIATE
 
 }  // namespace touchstone

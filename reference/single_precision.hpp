@@ -55,29 +55,43 @@ struct FloatContact {
   }
 };
 
+/// Of answers in double.
+void round_into(const SignedDistance& from, FloatSignedDistance& to);
+void round_into(const Contact& from, FloatContact& to);
+
 // As in contact.hpp. `Other` is Plane, Sphere, Capsule, Cylinder or Box.
 
 template <class Other>
 FloatSignedDistance signed_distance(const Cylinder& a, const FloatPose& pose_a, const Other& b,
-                                    const FloatPose& pose_b);
+                                    const FloatPose& pose_b) {
+  FloatSignedDistance result;
+  round_into(signed_distance(a, pose_a.in_double(), b, pose_b.in_double()), result);
+  return result;
+}
 template <class Other>
-bool overlaps(const Cylinder& a, const FloatPose& pose_a, const Other& b, const FloatPose& pose_b);
+bool overlaps(const Cylinder& a, const FloatPose& pose_a, const Other& b, const FloatPose& pose_b) {
+  return overlaps(a, pose_a.in_double(), b, pose_b.in_double());
+}
 template <class Other>
 FloatContact contact(const Cylinder& a, const FloatPose& pose_a, const Other& b,
                      const FloatPose& pose_b, float contact_threshold,
                      const Eigen::Vector3f* previous_normal = nullptr,
-                     PointRange range = PointRange::near_deepest);
+                     PointRange range = PointRange::near_deepest) {
+  const Vec3 previous = previous_normal ? previous_normal->cast<double>() : Vec3(Vec3::Zero());
+  FloatContact result;
+  round_into(contact(a, pose_a.in_double(), b, pose_b.in_double(), contact_threshold,
+                     previous_normal ? &previous : nullptr, range),
+             result);
+  return result;
+}
 
 // As in batch.hpp: with the bits of single pairs.
 
-template <class Other>
-void signed_distance(const Cylinder& a, std::span<const FloatPose> poses_a, const Other& b,
+void signed_distance(const Cylinder& a, std::span<const FloatPose> poses_a, const Shape& b,
                      std::span<const FloatPose> poses_b, std::span<FloatSignedDistance> results);
-template <class Other>
-void overlaps(const Cylinder& a, std::span<const FloatPose> poses_a, const Other& b,
+void overlaps(const Cylinder& a, std::span<const FloatPose> poses_a, const Shape& b,
               std::span<const FloatPose> poses_b, std::span<bool> results);
-template <class Other>
-void contact(const Cylinder& a, std::span<const FloatPose> poses_a, const Other& b,
+void contact(const Cylinder& a, std::span<const FloatPose> poses_a, const Shape& b,
              std::span<const FloatPose> poses_b, float contact_threshold,
              std::span<FloatContact> results, PointRange range = PointRange::near_deepest);
 

@@ -35,9 +35,15 @@ touchstone::Shape to_shape(const touchstone_body& body) {
                                  "must be one of the five shapes");
 }
 
-Pose to_pose(const touchstone_body& body) {
-  const double* q = body.orientation;
-  return Pose(Vec3(body.position), Eigen::Quaterniond(q[0], q[1], q[2], q[3]));
+/// Of a body or a pose.
+template <class Posed>
+Pose to_pose(const Posed& posed) {
+  const double* q = posed.orientation;
+  return Pose(Vec3(posed.position), Eigen::Quaterniond(q[0], q[1], q[2], q[3]));
+}
+FloatPose to_pose(const touchstone_float_pose& pose) {
+  const float* q = pose.orientation;
+  return FloatPose(Eigen::Vector3f(pose.position), Eigen::Quaternionf(q[0], q[1], q[2], q[3]));
 }
 
 /// Calls with the bodies' configuration and returns 0; or 1 if there is none.
@@ -71,20 +77,12 @@ void copy_distance(const Distance& from, DistanceInC& to) {
   copy(from.normal, to.normal);
 }
 
-Pose to_pose(const touchstone_pose& pose) {
-  const double* q = pose.orientation;
-  return Pose(Vec3(pose.position), Eigen::Quaterniond(q[0], q[1], q[2], q[3]));
-}
-FloatPose to_pose(const touchstone_float_pose& pose) {
-  const float* q = pose.orientation;
-  return FloatPose(Eigen::Vector3f(pose.position), Eigen::Quaternionf(q[0], q[1], q[2], q[3]));
-}
-
-/// Calls question(a, poses_a, b, poses_b, first) of some poses after the others and returns 0; or
-/// 1, before it calls, if a body or pose is invalid.
-template <class PoseInC, class Question>
+/// Calls ask(a, poses_a, b, poses_b, results) of some poses after the others, copies the answers
+/// and returns 0; or 1, before it calls, if a body or pose is invalid.
+template <class Answer, class PoseInC, class AnswerInC, class Ask, class Copy>
 int ask_batch(const touchstone_body* a, const PoseInC* poses_a, const touchstone_body* b,
-              const PoseInC* poses_b, std::size_t count, Question question) try {
+              const PoseInC* poses_b, std::size_t count, AnswerInC* answers, Ask ask,
+              Copy copy_answer) try {
   constexpr std::size_t width = 16;
   using OnePose = decltype(to_pose(*poses_a));
   if (a->kind != TOUCHSTONE_CYLINDER) return 1;
@@ -92,66 +90,49 @@ int ask_batch(const touchstone_body* a, const PoseInC* poses_a, const touchstone
   const touchstone::Shape other = to_shape(*b);
   for (std::size_t i = 0; i < count; ++i) to_pose(poses_a[i]), to_pose(poses_b[i]);
   std::array<OnePose, width> in_a, in_b;
+  std::array<Answer, width> results;
   for (std::size_t first = 0; first < count; first += width) {
     const std::size_t some = std::min(width, count - first);
     for (std::size_t i = 0; i < some; ++i) {
       in_a[i] = to_pose(poses_a[first + i]), in_b[i] = to_pose(poses_b[first + i]);
     }
     const std::span<const OnePose> of_a(in_a.data(), some), of_b(in_b.data(), some);
-    std::visit([&](const auto& shape) { question(cylinder, of_a, shape, of_b, first); }, other);
+    ask(cylinder, of_a, other, of_b, std::span(results).first(some));
+    for (std::size_t i = 0; i < some; ++i) copy_answer(results[i], answers[first + i]);
   }
   return 0;
 } catch (const touchstone::InvalidInput&) {
   return 1;
 }
 
-/// Calls ask(results) with room for some answers, and copies them.
-template <class Answer, class AnswerInC, class Ask, class Copy>
-void answer_some(std::size_t count, AnswerInC* answers, Ask ask, Copy copy_answer) {
-  std::array<Answer, 16> results;
-  ask(std::span(results).first(count));
-  for (std::size_t i = 0; i < count; ++i) copy_answer(results[i], answers[i]);
-}
-
 template <class Contact, class PoseInC, class Threshold, class ContactInC>
 int find_contacts(const touchstone_body* a, const PoseInC* poses_a, const touchstone_body* b,
                   const PoseInC* poses_b, std::size_t count, Threshold threshold,
                   ContactInC* contacts) {
-  return ask_batch(
-      a, poses_a, b, poses_b, count,
-      [&](const auto& shape_a, auto of_a, const auto& shape_b, auto of_b, std::size_t first) {
-        answer_some<Contact>(
-            of_a.size(), contacts + first,
-            [&](auto results) { contact(shape_a, of_a, shape_b, of_b, threshold, results); },
-            [](const Contact& from, ContactInC& to) { copy_contact(from, to); });
-      });
+  return ask_batch<Contact>(
+      a, poses_a, b, poses_b, count, contacts,
+      [&](const auto& shape_a, auto of_a, const auto& shape_b, auto of_b, auto results) {
+        contact(shape_a, of_a, shape_b, of_b, threshold, results);
+      },
+      copy_contact<Contact, ContactInC>);
 }
 
 template <class Distance, class PoseInC, class DistanceInC>
 int find_signed_distances(const touchstone_body* a, const PoseInC* poses_a,
                           const touchstone_body* b, const PoseInC* poses_b, std::size_t count,
                           DistanceInC* distances) {
-  return ask_batch(
-      a, poses_a, b, poses_b, count,
-      [&](const auto& shape_a, auto of_a, const auto& shape_b, auto of_b, std::size_t first) {
-        answer_some<Distance>(
-            of_a.size(), distances + first,
-            [&](auto results) { signed_distance(shape_a, of_a, shape_b, of_b, results); },
-            [](const Distance& from, DistanceInC& to) { copy_distance(from, to); });
-      });
+  return ask_batch<Distance>(
+      a, poses_a, b, poses_b, count, distances,
+      [](const auto&... asked) { signed_distance(asked...); },
+      copy_distance<Distance, DistanceInC>);
 }
 
 template <class PoseInC>
 int find_overlaps(const touchstone_body* a, const PoseInC* poses_a, const touchstone_body* b,
                   const PoseInC* poses_b, std::size_t count, int* overlap) {
-  return ask_batch(
-      a, poses_a, b, poses_b, count,
-      [&](const auto& shape_a, auto of_a, const auto& shape_b, auto of_b, std::size_t first) {
-        answer_some<bool>(
-            of_a.size(), overlap + first,
-            [&](auto results) { overlaps(shape_a, of_a, shape_b, of_b, results); },
-            [](bool from, int& to) { to = from ? 1 : 0; });
-      });
+  return ask_batch<bool>(
+      a, poses_a, b, poses_b, count, overlap, [](const auto&... asked) { overlaps(asked...); },
+      [](bool from, int& to) { to = from ? 1 : 0; });
 }
 
 }  // namespace
