@@ -82,15 +82,6 @@ TEST(Contact, HasTheDistanceAndNormalOfTheClosedForm) {
   }
 }
 
-TEST(Contact, ThresholdAdmitsPointsBetweenBodiesApart) {
-  const Configuration apart{Cylinder(1, 1), Pose({0, 0, 2.5}, upright), Box({2, 2, 1}), Pose()};
-  EXPECT_TRUE(contact(apart, 0.25).points().empty());
-  const Contact near = contact(apart, 0.75);
-  ASSERT_EQ(near.points().size(), 3u);
-  EXPECT_NEAR(near.points()[0].position.z(), 1.25, 1e-15);
-  EXPECT_NEAR(near.points()[0].depth, -0.5, 1e-15);
-}
-
 // The thesis's figure 20: did the body come from the side or from above? Both ways out are as long.
 TEST(Contact, PreviousNormalDecidesBetweenSideAndTop) {
   const Cylinder can(1, 2);
@@ -110,41 +101,6 @@ TEST(Contact, PreviousNormalDecidesBetweenSideAndTop) {
       EXPECT_NEAR(answer.normal.dot(previous), 1, 1e-15);
       EXPECT_NEAR(answer.signed_distance, signed_distance(row.configuration).value, 1e-15);
     }
-  }
-}
-
-TEST(CylinderOnPlane, TiltedHasOnePoint) {
-  // sin 3/5, cos 4/5: the rim is 1·4/5 + 1·3/5 below the centre.
-  const Configuration c{Cylinder(1, 1), Pose({0, 0, 1.25}, Quaternion(3, 1, 0, 0)),
-                        Plane({0, 0, 1}, 0), Pose()};
-  const Contact answer = contact(c, 0);
-  ASSERT_EQ(answer.points().size(), 1u);
-  EXPECT_NEAR(answer.points()[0].depth, 0.15, 1e-15);
-  EXPECT_NEAR(answer.points()[0].position.z(), -0.075, 1e-15);
-}
-
-TEST(CylinderOnPlane, LyingHasTheTwoEndsOfItsGenerator) {
-  const Configuration c{Cylinder(1, 2), Pose({5, 6, 0.75}, along_x), Plane({0, 0, 1}, 0), Pose()};
-  const Contact answer = contact(c, 0);
-  ASSERT_EQ(answer.points().size(), 2u);
-  EXPECT_NEAR(std::abs(answer.points()[0].position.x() - answer.points()[1].position.x()), 4,
-              1e-14);
-  for (const auto& p : answer.points()) {
-    EXPECT_NEAR(p.depth, 0.25, 1e-15);
-    EXPECT_NEAR(p.position.y(), 6, 1e-14);
-    EXPECT_NEAR(p.position.z(), -0.125, 1e-15);
-  }
-}
-
-TEST(CylinderOnPlane, StandingHasThreePoints120DegreesApart) {
-  const Configuration c{Cylinder(1, 2), Pose({5, 6, 1.75}, upright), Plane({0, 0, 1}, 0), Pose()};
-  const Contact answer = contact(c, 0);
-  ASSERT_EQ(answer.points().size(), 3u);
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Vec3 p = answer.points()[i].position, q = answer.points()[(i + 1) % 3].position;
-    EXPECT_NEAR((p - q).norm(), std::sqrt(3.0), 1e-14);
-    EXPECT_NEAR((p - Vec3(5, 6, p.z())).norm(), 1, 1e-14);
-    EXPECT_NEAR(answer.points()[i].depth, 0.25, 1e-15);
   }
 }
 

@@ -76,6 +76,16 @@ double coverage(const Patch& patch, const Contact& answer) {
 /// coincide.
 double bar(std::size_t points) { return points < 4 ? 0.495 : points < 8 ? 0.65 : 0.85; }
 
+/// What a disc about the origin shares with one of radius 1 so far along x.
+Patch lens(double radius, double distance) {
+  const Vec2 other(distance, 0);
+  const Vec2 middle((std::max(distance - 1, -radius) + std::min(distance + 1, radius)) / 2, 0);
+  return {middle, [=](const Vec2& unit) {
+            return std::min(reach_in_disc(middle, unit, other, 1),
+                            reach_in_disc(middle, unit, {0, 0}, radius));
+          }};
+}
+
 TEST(Manifold, CoversTheDiscsThatCapsShare) {
   for (const double radius : {0.3, 0.8, 1.0, 2.5}) {
     for (const double part : {0.0, 0.01, 0.1, 0.3, 0.5, 0.7, 0.9, 0.99}) {
@@ -85,14 +95,9 @@ TEST(Manifold, CoversTheDiscsThatCapsShare) {
                             Cylinder(radius, 1), Pose()};
       const Contact answer = contact(c, 0);
       EXPECT_EQ(answer.points().size(), part > 0 ? 4u : 3u);
-      const Vec2 other(distance, 0),
-          middle((std::max(distance - 1, -radius) + std::min(distance + 1, radius)) / 2, 0);
-      const Patch patch{middle, [&](const Vec2& unit) {
-                          return std::min(reach_in_disc(middle, unit, other, 1),
-                                          reach_in_disc(middle, unit, {0, 0}, radius));
-                        }};
       // No two pairs of points, mirrored across the line of centres, have more than 0.68 of some.
-      EXPECT_GE(coverage(patch, answer), part > 0 ? 0.65 : bar(3)) << radius << " " << part;
+      EXPECT_GE(coverage(lens(radius, distance), answer), part > 0 ? 0.65 : bar(3))
+          << radius << " " << part;
     }
   }
 }
@@ -102,12 +107,7 @@ TEST(Manifold, CoversTheDiscsThatLeaningCapsShare) {
   for (const double radius : {0.3, 1.0, 2.5}) {
     for (const double part : {0.1, 0.5, 0.9}) {
       const double distance = std::abs(radius - 1) + part * 2 * std::min(radius, 1.0);
-      const Vec2 other(distance, 0);
-      const Vec2 middle((std::max(distance - 1, -radius) + std::min(distance + 1, radius)) / 2, 0);
-      const Patch patch{middle, [&](const Vec2& unit) {
-                          return std::min(reach_in_disc(middle, unit, other, 1),
-                                          reach_in_disc(middle, unit, {0, 0}, radius));
-                        }};
+      const Patch patch = lens(radius, distance);
       for (double heading = 0.1; heading < 6.3; heading += 0.3) {
         // The deepest point is one of them when the tilt is clear.
         const double tilt = std::fmod(heading, 0.6) < 0.3 ? 1e-9 : 1e-5;
