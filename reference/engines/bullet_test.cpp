@@ -4,7 +4,6 @@
 
 #include <btBulletDynamicsCommon.h>
 #include <memory>
-#include <thread>
 
 #include "reference/engines/drop_in_test.hpp"
 
@@ -155,11 +154,9 @@ void expect_all_poses(Pair pair, int up, bool cylinder_is_first) {
     bodies.object(cylinder_is_first ? 0 : 1).setWorldTransform(to_transform(c.a, c.pose_a, up));
     bodies.object(cylinder_is_first ? 1 : 0).setWorldTransform(to_transform(c.b, c.pose_b, up));
     bodies.step();
-    std::vector<EnginePoint> points = bodies.points();
-    for (EnginePoint& p : points) {
-      if (!cylinder_is_first) p.normal = -p.normal;
-    }
-    expect_as_ours(c, bodies.manifold().getContactBreakingThreshold(), 4, points, precision,
+    const auto points = bodies.points();
+    expect_as_ours(c, bodies.manifold().getContactBreakingThreshold(), 4,
+                   cylinder_is_first ? points : turned_round(points), precision,
                    cylinder_is_first ? is_same<-1> : is_same<1>);
   }
 }
@@ -176,7 +173,11 @@ TEST(DROP_IN, AnswersEveryPairInBothOrdersAndAllUpAxes) {
 
 const Cylinder can(0.5, 1);
 const Box crate(Vec3(2, 2, 1));
-const btTransform standing(btQuaternion::getIdentity(), btVector3(0, 0, btScalar(1.99)));
+/// Not turned.
+btTransform at(double x, double y, double z) {
+  return btTransform(btQuaternion::getIdentity(), btVector3(btScalar(x), btScalar(y), btScalar(z)));
+}
+const btTransform standing = at(0, 0, 1.99);
 
 TEST(DROP_IN, MarginsChangeNothing) {
   for (const double margin : {0.0, 0.01, 0.2}) {
@@ -193,8 +194,7 @@ TEST(DROP_IN, MarginsChangeNothing) {
 TEST(DROP_IN, LocalScalingCounts) {
   Bodies bodies(can, crate);
   bodies.shape(0).setLocalScaling(btVector3(2, 2, 2));
-  bodies.object(0).setWorldTransform(
-      btTransform(btQuaternion::getIdentity(), btVector3(0, 0, btScalar(2.99))));
+  bodies.object(0).setWorldTransform(at(0, 0, 2.99));
   bodies.step();
   ASSERT_EQ(bodies.points().size(), 3u);
   EXPECT_NEAR(bodies.points()[0].depth, 0.01, 10 * precision);
@@ -207,8 +207,7 @@ TEST(DROP_IN, ReportsSeparateBodiesUpToTheBreakingThreshold) {
   bodies.step();
   const double breaking = bodies.manifold().getContactBreakingThreshold();
   for (const auto& [gap, count] : {std::pair(0.9 * breaking, 3u), std::pair(1.1 * breaking, 0u)}) {
-    bodies.object(0).setWorldTransform(
-        btTransform(btQuaternion::getIdentity(), btVector3(0, 0, btScalar(2 + gap))));
+    bodies.object(0).setWorldTransform(at(0, 0, 2 + gap));
     bodies.step();
     ASSERT_EQ(bodies.points().size(), count);
     for (const EnginePoint& p : bodies.points()) EXPECT_NEAR(p.depth, -gap, 10 * precision);
@@ -219,13 +218,11 @@ TEST(DROP_IN, AnswersChildrenOfCompounds) {
   btCylinderShapeX wheel(btVector3(btScalar(0.1), btScalar(0.5), btScalar(0.5)));
   btCompoundShape axle;
   for (const double x : {-1.0, 1.0}) {
-    axle.addChildShape(btTransform(btQuaternion::getIdentity(), btVector3(btScalar(x), 0, 0)),
-                       &wheel);
+    axle.addChildShape(at(x, 0, 0), &wheel);
   }
   Bodies bodies(can, crate);
   bodies.object(0).setCollisionShape(&axle);
-  bodies.object(0).setWorldTransform(
-      btTransform(btQuaternion::getIdentity(), btVector3(0, 0, btScalar(1.49))));
+  bodies.object(0).setWorldTransform(at(0, 0, 1.49));
   bodies.step();
   const auto points = bodies.points();
   ASSERT_EQ(points.size(), 4u);
@@ -302,9 +299,8 @@ TEST(DROP_IN, ABodyThatIsNotThereAnyMoreHasNoPoints) {
   bodies.object(0).setWorldTransform(standing);
   bodies.step();
   ASSERT_EQ(bodies.points().size(), 3u);
-  for (const btScalar z : {btScalar(5), std::numeric_limits<btScalar>::quiet_NaN()}) {
-    bodies.object(0).setWorldTransform(
-        btTransform(btQuaternion::getIdentity(), btVector3(0, 0, z)));
+  for (const double z : {5.0, std::numeric_limits<double>::quiet_NaN()}) {
+    bodies.object(0).setWorldTransform(at(0, 0, z));
     bodies.step();
     EXPECT_TRUE(bodies.points().empty()) << z;
   }
@@ -323,8 +319,7 @@ TEST(DROP_IN, AnswersContactPairTestWithItsDistance) {
   btDbvtBroadphase broadphase;
   btDefaultCollisionConfiguration configuration;
   btCollisionWorld world(&bodies.dispatcher, &broadphase, &configuration);
-  bodies.object(0).setWorldTransform(
-      btTransform(btQuaternion::getIdentity(), btVector3(0, 0, btScalar(2.3))));
+  bodies.object(0).setWorldTransform(at(0, 0, 2.3));
   Nearest nearest;
   nearest.m_closestDistanceThreshold = btScalar(0.5);
   world.contactPairTest(&bodies.object(0), &bodies.object(1), nearest);
@@ -339,8 +334,7 @@ std::vector<double> depths_with(btCollisionShape& other, double y, bool is_cured
   Bodies bodies(can, crate, is_cured);
   bodies.object(0).setCollisionShape(&upright);
   bodies.object(1).setCollisionShape(&other);
-  bodies.object(1).setWorldTransform(
-      btTransform(btQuaternion::getIdentity(), btVector3(btScalar(0.1), btScalar(y), 0)));
+  bodies.object(1).setWorldTransform(at(0.1, y, 0));
   bodies.step();
   std::vector<double> depths;
   for (const EnginePoint& p : bodies.points()) depths.push_back(p.depth);
@@ -425,14 +419,7 @@ std::vector<btScalar> positions_of_falling_bodies() {
 // One world in each thread. Threads in one world are for a Bullet that is built with BT_THREADSAFE:
 // without it, as Debian's is, the lock of btCollisionDispatcherMt is none and it has no scheduler.
 TEST(DROP_IN, LetsThreadsStepWorldsAtOnce) {
-  const auto alone = positions_of_falling_bodies();
-  std::vector<btScalar> at_once[2];
-  std::vector<std::thread> threads;
-  for (auto& result : at_once) {
-    threads.emplace_back([&] { result = positions_of_falling_bodies(); });
-  }
-  for (std::thread& t : threads) t.join();
-  for (const auto& result : at_once) EXPECT_EQ(result, alone);
+  const auto alone = expect_threads_answer_alike([](int) { return positions_of_falling_bodies(); });
   for (const btScalar x : alone) EXPECT_TRUE(std::abs(x) < 9);  // nothing has fallen off the floor
 }
 
@@ -447,10 +434,7 @@ TEST(DROP_IN, UninstallGivesBackBulletsOwnAnswers) {
         bodies.object(0).setWorldTransform(to_transform(c.a, c.pose_a, 2));
         bodies.object(1).setWorldTransform(to_transform(c.b, c.pose_b, 2));
         bodies.step();
-        for (const EnginePoint& p : bodies.points()) {
-          for (int i = 0; i < 3; ++i) numbers.push_back(p.position[i]);
-          numbers.push_back(p.depth);
-        }
+        append(numbers, bodies.points());
       }
     }
     return numbers;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "properties/identity.hpp"
@@ -18,6 +19,44 @@ struct EnginePoint {
   Vec3 normal;
   double depth;
 };
+
+inline std::vector<EnginePoint> turned_round(std::vector<EnginePoint> points) {
+  for (EnginePoint& p : points) p.normal = -p.normal;
+  return points;
+}
+/// Appends all numbers of points, to be compared to the last bit.
+inline void append(std::vector<double>& numbers, const std::vector<EnginePoint>& points) {
+  for (const EnginePoint& p : points) {
+    for (int i = 0; i < 3; ++i) numbers.push_back(p.position[i]), numbers.push_back(p.normal[i]);
+    numbers.push_back(p.depth);
+  }
+}
+
+/// ask(0) alone, and ask(1) and ask(2) in two threads at once, have the same answers, and some.
+/// Returns them.
+template <class Ask>
+auto expect_threads_answer_alike(Ask ask) {
+  const auto alone = ask(0);
+  std::vector<decltype(ask(0))> at_once(2);
+  std::vector<std::thread> threads;
+  for (int i : {1, 2}) threads.emplace_back([&, i] { at_once[i - 1] = ask(i); });
+  for (std::thread& t : threads) t.join();
+  EXPECT_FALSE(alone.empty());
+  for (const auto& answer : at_once) EXPECT_EQ(answer, alone);
+  return alone;
+}
+
+/// What is uninstalled, also after it was installed twice, leaves the engine's own answers.
+template <class Answers, class Install, class Uninstall>
+void expect_uninstall_gives_back(Answers answers, Install install, Uninstall uninstall) {
+  uninstall();
+  const auto before = answers();
+  install();
+  install();
+  EXPECT_NE(answers(), before);
+  uninstall();
+  EXPECT_EQ(answers(), before);
+}
 
 /// Configurations of every kind of everyday pose: general, aligned, at rest, apart.
 inline std::vector<Identity> everyday_poses(Pair pair, std::uint64_t count) {

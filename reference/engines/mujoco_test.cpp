@@ -4,7 +4,6 @@
 #include <cstring>
 #include <fmt/format.h>
 #include <memory>
-#include <thread>
 
 #include "reference/engines/drop_in_test.hpp"
 
@@ -162,45 +161,26 @@ TEST_F(MujocoDropIn, SizesOfZeroStayMujocosOwn) {
 }
 
 TEST_F(MujocoDropIn, LetsThreadsCollideAtOnce) {
-  const auto answers = [] {
-    std::vector<double> depths;
+  expect_threads_answer_alike([](int) {
+    std::vector<double> numbers;
     for (const Identity& id : everyday_poses(Pair::box, 1)) {
-      for (const EnginePoint& p : Scene(make_configuration(id), true, 0).points()) {
-        depths.push_back(p.depth);
-      }
+      append(numbers, Scene(make_configuration(id), true, 0).points());
     }
-    return depths;
-  };
-  const auto alone = answers();
-  std::vector<double> at_once[2];
-  std::vector<std::thread> threads;
-  for (auto& result : at_once) threads.emplace_back([&] { result = answers(); });
-  for (std::thread& t : threads) t.join();
-  for (const auto& result : at_once) EXPECT_EQ(result, alone);
+    return numbers;
+  });
 }
 
 TEST_F(MujocoDropIn, UninstallGivesBackMujocosOwnAnswers) {
-  mujoco::uninstall();
   const auto answers = [] {
     std::vector<double> numbers;
     for (const Pair pair : all_pairs) {
       for (const Identity& id : everyday_poses(pair, 1)) {
-        const Configuration c = make_configuration(id);
-        for (const EnginePoint& p : Scene(c, true, 0).points()) {
-          for (int i = 0; i < 3; ++i)
-            numbers.push_back(p.position[i]), numbers.push_back(p.normal[i]);
-          numbers.push_back(p.depth);
-        }
+        append(numbers, Scene(make_configuration(id), true, 0).points());
       }
     }
     return numbers;
   };
-  const auto before = answers();
-  mujoco::install();
-  mujoco::install();
-  EXPECT_NE(answers(), before);
-  mujoco::uninstall();
-  EXPECT_EQ(answers(), before);
+  expect_uninstall_gives_back(answers, mujoco::install, mujoco::uninstall);
 }
 
 }  // namespace

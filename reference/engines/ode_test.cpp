@@ -2,44 +2,19 @@
 #include "reference/engines/ode.hpp"
 
 #include <deque>
-#include <thread>
 
 #include "candidates/ode_library.hpp"
 #include "reference/engines/drop_in_test.hpp"
+#include "simulation/ode_scene.hpp"
 
 namespace touchstone {
 namespace {
 
-dGeomID make_geom(const Shape& shape, const Pose& pose) {
-  const auto at = [&](dGeomID geom) {
-    const Vec3& x = pose.position();
-    const Eigen::Quaterniond q = pose.unit_orientation();
-    const dQuaternion turned = {q.w(), q.x(), q.y(), q.z()};
-    dGeomSetPosition(geom, x.x(), x.y(), x.z());
-    dGeomSetQuaternion(geom, turned);
-    return geom;
-  };
-  if (const auto* s = std::get_if<Cylinder>(&shape)) {
-    return at(dCreateCylinder(nullptr, s->radius(), 2 * s->half_length()));
-  }
-  if (const auto* s = std::get_if<Capsule>(&shape)) {
-    return at(dCreateCapsule(nullptr, s->radius(), 2 * s->half_length()));
-  }
-  if (const auto* s = std::get_if<Sphere>(&shape)) return at(dCreateSphere(nullptr, s->radius()));
-  if (const auto* s = std::get_if<Box>(&shape)) {
-    const Vec3 lengths = 2 * s->half_extents();
-    return at(dCreateBox(nullptr, lengths.x(), lengths.y(), lengths.z()));
-  }
-  const auto& plane = std::get<Plane>(shape);
-  const Vec3 n = pose.rotation() * plane.unit_normal();
-  return dCreatePlane(nullptr, n.x(), n.y(), n.z(),
-                      plane.unit_displacement() + n.dot(pose.position()));
-}
-
 class Geoms {
  public:
   explicit Geoms(const Configuration& c)
-      : a(make_geom(c.a, c.pose_a)), b(make_geom(c.b, c.pose_b)) {}
+      : a(make_ode_geom(nullptr, c.a, nullptr, c.pose_a)),
+        b(make_ode_geom(nullptr, c.b, nullptr, c.pose_b)) {}
   ~Geoms() {
     dGeomDestroy(a);
     dGeomDestroy(b);
@@ -65,6 +40,11 @@ std::vector<EnginePoint> collide(dGeomID first, dGeomID second, int max_points =
   return points;
 }
 
+void expect_in_both_orders(const Configuration& c, dGeomID a, dGeomID b) {
+  expect_as_ours(c, 0, 8, collide(a, b), 1e-12);
+  expect_as_ours(c, 0, 8, turned_round(collide(b, a)), 1e-12);
+}
+
 class OdeDropIn : public testing::Test {
  protected:
   static void SetUpTestSuite() { initialise_ode(); }
@@ -78,10 +58,7 @@ TEST_F(OdeDropIn, AnswersEveryPairInBothOrders) {
       const Configuration c = make_configuration(id);
       SCOPED_TRACE(to_string(id));
       const Geoms geoms(c);
-      expect_as_ours(c, 0, 8, collide(geoms.a, geoms.b), 1e-12);
-      auto points = collide(geoms.b, geoms.a);
-      for (EnginePoint& p : points) p.normal = -p.normal;
-      expect_as_ours(c, 0, 8, points, 1e-12);
+      expect_in_both_orders(c, geoms.a, geoms.b);
     }
   }
 }
@@ -180,12 +157,6 @@ struct TurnedBody {
 };
 
 TEST_F(OdeDropIn, AnswersTurnedGeomsInTransformsAndWithOffsetsInBothOrders) {
-  const auto expect_in_both_orders = [](const Configuration& c, dGeomID a, dGeomID b) {
-    expect_as_ours(c, 0, 8, collide(a, b), 1e-12);
-    auto points = collide(b, a);
-    for (EnginePoint& p : points) p.normal = -p.normal;
-    expect_as_ours(c, 0, 8, points, 1e-12);
-  };
   for (const Pair pair : all_pairs) {
     for (const Identity& id : everyday_poses(pair, 3)) {
       const Configuration c = make_configuration(id);
@@ -206,9 +177,10 @@ TEST_F(OdeDropIn, AnswersTurnedGeomsInTransformsAndWithOffsetsInBothOrders) {
 
 TEST_F(OdeDropIn, ACapsuleOfZeroLengthIsASphere) {
   const Configuration c{Cylinder(0.5, 0.5), Pose(), Sphere(0.25), Pose(Vec3(0, 0.1, 0.7))};
-  const dGeomID can = make_geom(c.a, c.pose_a), capsule = dCreateCapsule(nullptr, 0.25, 0);
+  const dGeomID can = make_ode_geom(nullptr, c.a, nullptr, c.pose_a);
+  const dGeomID capsule = dCreateCapsule(nullptr, 0.25, 0);
   dGeomSetPosition(capsule, 0, 0.1, 0.7);
-  expect_as_ours(c, 0, 8, collide(can, capsule), 1e-12);
+  expect_in_both_orders(c, can, capsule);
   const auto points = collide(capsule, can);
   ASSERT_EQ(points.size(), 1u);
   EXPECT_NEAR(points[0].depth, 0.05, 1e-12);
@@ -227,10 +199,7 @@ TEST_F(OdeDropIn, OtherSizesOfZeroStayOdesOwnWhereItHasAnAnswer) {
   dGeomSetPosition(line, 0.1, 0, 0.9);
   const auto answer = [](dGeomID a, dGeomID b) {
     std::vector<double> numbers;
-    for (const EnginePoint& p : collide(a, b)) {
-      for (int i = 0; i < 3; ++i) numbers.push_back(p.position[i]), numbers.push_back(p.normal[i]);
-      numbers.push_back(p.depth);
-    }
+    append(numbers, collide(a, b));
     return numbers;
   };
   for (const auto& [a, b] : {std::pair(can, point), std::pair(can, line), std::pair(disc, plane),
@@ -266,60 +235,34 @@ TEST_F(OdeDropIn, HasNoContactWithAPoseThatIsNotFinite) {
 TEST_F(OdeDropIn, LetsThreadsCollideAtOnce) {
   // Made before the threads start: ODE hands a destroyed geom's pose on to whoever makes the next,
   // by an atomic exchange that ThreadSanitizer, which does not see into ODE, takes for a race.
-  struct Asked {
-    std::deque<Geoms> geoms;
-    std::vector<double> depths;
-  };
-  Asked alone;
-  Asked at_once[2];
-  for (const Identity& id : everyday_poses(Pair::cylinder, 2)) {
-    const Configuration c = make_configuration(id);
-    alone.geoms.emplace_back(c);
-    for (Asked& asked : at_once) asked.geoms.emplace_back(c);
-  }
-  const auto ask = [](Asked& asked) {
-    for (const Geoms& geoms : asked.geoms) {
-      for (const EnginePoint& p : collide(geoms.a, geoms.b)) asked.depths.push_back(p.depth);
+  std::deque<Geoms> geoms[3];
+  for (auto& of_thread : geoms) {
+    for (const Identity& id : everyday_poses(Pair::cylinder, 2)) {
+      of_thread.emplace_back(make_configuration(id));
     }
-  };
-  ask(alone);
-  std::vector<std::thread> threads;
-  for (Asked& asked : at_once) {
-    threads.emplace_back([&] {
-      dAllocateODEDataForThread(dAllocateMaskAll);
-      ask(asked);
-      dCleanupODEAllDataForThread();
-    });
   }
-  for (std::thread& t : threads) t.join();
-  EXPECT_FALSE(alone.depths.empty());
-  for (const Asked& asked : at_once) EXPECT_EQ(asked.depths, alone.depths);
+  expect_threads_answer_alike([&](int thread) {
+    if (thread > 0) dAllocateODEDataForThread(dAllocateMaskAll);
+    std::vector<double> numbers;
+    for (const Geoms& pair : geoms[thread]) append(numbers, collide(pair.a, pair.b));
+    if (thread > 0) dCleanupODEAllDataForThread();
+    return numbers;
+  });
 }
 
 TEST_F(OdeDropIn, UninstallGivesBackOdesOwnAnswers) {
-  ode::uninstall();
   const auto answers = [] {
     std::vector<double> numbers;
     for (const Pair pair : all_pairs) {
       for (const Identity& id : everyday_poses(pair, 3)) {
         const Geoms geoms(make_configuration(id));
-        for (const auto& points : {collide(geoms.a, geoms.b), collide(geoms.b, geoms.a)}) {
-          for (const EnginePoint& p : points) {
-            for (int i = 0; i < 3; ++i)
-              numbers.push_back(p.position[i]), numbers.push_back(p.normal[i]);
-            numbers.push_back(p.depth);
-          }
-        }
+        append(numbers, collide(geoms.a, geoms.b));
+        append(numbers, collide(geoms.b, geoms.a));
       }
     }
     return numbers;
   };
-  const auto before = answers();
-  ode::install();
-  ode::install();
-  EXPECT_NE(answers(), before);
-  EXPECT_TRUE(ode::uninstall());
-  EXPECT_EQ(answers(), before);
+  expect_uninstall_gives_back(answers, ode::install, [] { EXPECT_TRUE(ode::uninstall()); });
 }
 
 }  // namespace
