@@ -165,47 +165,45 @@ bool is_finite(const ts_answer& answer) {
   });
 }
 
-const char* outcome_name(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::agree:
-      return "agree";
-    case Outcome::missed:
-      return "missed";
-    case Outcome::phantom:
-      return "phantom";
-    case Outcome::shallow:
-      return "shallow";
-    case Outcome::overdeep:
-      return "overdeep";
-    case Outcome::wrong_normal:
-      return "wrong-normal";
-    case Outcome::not_finite:
-      return "not-finite";
-    case Outcome::failed:
-      return "failed";
-    case Outcome::crashed:
-      return "crashed";
-    case Outcome::timed_out:
-      return "timed-out";
-    case Outcome::unsupported:
-      return "unsupported";
-    case Outcome::shallow_points:
-      return "shallow-points";
-    case Outcome::overdeep_points:
-      return "overdeep-points";
-    case Outcome::phantom_points:
-      return "phantom-points";
-    case Outcome::not_asked:
-      return "not-asked";
-    case Outcome::off_body:
-      return "off-body";
-    case Outcome::no_points:
-      return "no-points";
-    case Outcome::unseen:
-      return "unseen";
-  }
-  return "";
-}
+namespace {
+
+struct OutcomeKind {
+  Outcome outcome;
+  const char* name;
+  bool is_judged = true;
+  bool is_of_points = false;
+};
+/// In the order of Outcome.
+constexpr OutcomeKind kinds[] = {{Outcome::agree, "agree"},
+                                 {Outcome::missed, "missed"},
+                                 {Outcome::phantom, "phantom"},
+                                 {Outcome::shallow, "shallow"},
+                                 {Outcome::overdeep, "overdeep"},
+                                 {Outcome::wrong_normal, "wrong-normal"},
+                                 {Outcome::not_finite, "not-finite", false},
+                                 {Outcome::failed, "failed", false},
+                                 {Outcome::crashed, "crashed", false},
+                                 {Outcome::timed_out, "timed-out", false},
+                                 {Outcome::unsupported, "unsupported", false},
+                                 {Outcome::shallow_points, "shallow-points", true, true},
+                                 {Outcome::overdeep_points, "overdeep-points", true, true},
+                                 {Outcome::phantom_points, "phantom-points", true, true},
+                                 {Outcome::not_asked, "not-asked", false},
+                                 {Outcome::off_body, "off-body", true, true},
+                                 {Outcome::no_points, "no-points", true, true},
+                                 {Outcome::unseen, "unseen"}};
+static_assert(std::equal(std::begin(kinds), std::end(kinds), all_outcomes.begin(),
+                         all_outcomes.end(), [](const OutcomeKind& kind, Outcome outcome) {
+                           return kind.outcome == outcome;
+                         }));
+
+const OutcomeKind& kind_of(Outcome outcome) { return kinds[static_cast<std::size_t>(outcome)]; }
+
+}  // namespace
+
+const char* outcome_name(Outcome outcome) { return kind_of(outcome).name; }
+bool is_judged(Outcome outcome) { return kind_of(outcome).is_judged; }
+bool is_of_points(Outcome outcome) { return kind_of(outcome).is_of_points; }
 
 std::optional<Outcome> find_outcome(std::string_view name) {
   const auto found = std::find_if(all_outcomes.begin(), all_outcomes.end(),
@@ -214,26 +212,6 @@ std::optional<Outcome> find_outcome(std::string_view name) {
 }
 
 bool agrees(Outcome outcome) { return outcome == Outcome::agree || outcome == Outcome::unseen; }
-
-bool is_of_points(Outcome outcome) {
-  return outcome == Outcome::shallow_points || outcome == Outcome::overdeep_points ||
-         outcome == Outcome::phantom_points || outcome == Outcome::off_body ||
-         outcome == Outcome::no_points;
-}
-
-bool is_judged(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::not_finite:
-    case Outcome::failed:
-    case Outcome::crashed:
-    case Outcome::timed_out:
-    case Outcome::unsupported:
-    case Outcome::not_asked:
-      return false;
-    default:
-      return true;
-  }
-}
 
 const char* status_name(ts_status status) {
   switch (status) {
