@@ -3,45 +3,13 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
-#include <numbers>
 #include <set>
 #include <string>
 
+#include "oracle/judge/made_answers.hpp"
+
 namespace touchstone {
 namespace {
-
-/// A can of size 0.5 standing on a box, 1e-3 deep: truth −1e-3 along z, −2e-3 of the size.
-const Configuration standing{Cylinder(0.5, 1),
-                             Pose(Vec3(0, 0, 1.999), Eigen::Quaterniond::Identity()),
-                             Box(Vec3(2, 2, 1)), Pose()};
-
-ts_answer contact(double signed_distance, const Vec3& normal) {
-  ts_answer a{};
-  a.status = TS_CONTACT;
-  a.signed_distance = signed_distance;
-  for (int i = 0; i < 3; ++i) a.normal[i] = normal[i];
-  a.point_count = 1;
-  a.points[0] = {{0, 0, 1}, {normal.x(), normal.y(), normal.z()}, -signed_distance};
-  return a;
-}
-
-ts_answer none() {
-  ts_answer a{};
-  a.status = TS_NONE;
-  return a;
-}
-
-Score scored(const Configuration& c, const ts_answer& a, const Bar& bar = {}) {
-  return score(c, oracle::truth(c), a, bar);
-}
-
-Configuration lifted(double by) {
-  return {standing.a,
-          Pose(standing.pose_a.position() + Vec3(0, 0, by), standing.pose_a.orientation()),
-          standing.b, standing.pose_b};
-}
-
-const Vec3 up(0, 0, 1);
 
 TEST(Score, TheRightAnswerAgreesWithNoError) {
   const Score s = scored(standing, contact(-1e-3, up));
@@ -52,54 +20,116 @@ TEST(Score, TheRightAnswerAgreesWithNoError) {
   EXPECT_EQ(s.points, 1);
 }
 
-/// Answered with that normal, and the true depth.
-Score along(const Configuration& c, const Vec3& n) {
-  const oracle::Truth truth = oracle::truth(c);
-  return score(c, truth, contact(truth.signed_distance.midpoint(), n), {});
+struct Judged {
+  const char* what;
+  Configuration c;
+  ts_answer answer;
+  Outcome outcome;
+  double severity = 0;
+  Bar bar = {};
+};
+
+constexpr double bar = Bar{}.tolerance;
+
+ts_answer with_status(ts_status status) {
+  ts_answer a{};
+  a.status = status;
+  return a;
 }
 
-/// A normal turned by `degrees` about an axis.
-Vec3 turned(const Vec3& n, const Vec3& axis, double degrees) {
-  return Eigen::AngleAxisd(degrees * std::numbers::pi / 180, axis.normalized()) * n;
+/// The right contact of `standing` with a second point.
+ts_answer and_point(const ts_point& point) {
+  ts_answer a = contact(-1e-3, up);
+  a.points[a.point_count++] = point;
+  return a;
 }
 
-constexpr double angle_rounding = 1e-12;
-
-TEST(NormalAngle, IsNoneForAnyMemberOfACircleAndElseTheAngleToIt) {
-  // All directions across the axis tie.
-  const Configuration c{Cylinder(1, 0.5), Pose(), Capsule(0.25, 2), Pose()};
-  for (const double turn : {0.0, 30.0, 45.0, 81.9, 90.0, 200.0}) {
-    const Vec3 member = turned(Vec3(1, 0, 0), Vec3(0, 0, 1), turn);
-    EXPECT_NEAR(*along(c, member).normal_angle, 0, angle_rounding) << turn;
-    const Vec3 off = turned(member, Vec3(0, 0, 1).cross(member), 0.5);
-    EXPECT_NEAR(*along(c, off).normal_angle, 0.5, angle_rounding) << turn;
+/// Points of these depths, and the contact's own signed distance.
+ts_answer with_depths(const std::vector<double>& depths, double signed_distance = -1e-3,
+                      const Vec3& normal = up) {
+  ts_answer a = contact(signed_distance, normal);
+  a.point_count = static_cast<int>(depths.size());
+  for (std::size_t i = 0; i < depths.size(); ++i) {
+    a.points[i] = {{0, 0, 1}, {0, 0, 1}, depths[i]};
   }
+  return a;
 }
 
-TEST(NormalAngle, OfConcentricBodiesIsNoneForAPerfectAnswer) {
-  const Configuration c{Cylinder(1, 0.5), Pose(), Capsule(1, 0.5), Pose()};
-  for (const oracle::OptimalNormal& optimal : oracle::truth(c).normals) {
-    EXPECT_EQ(*along(c, optimal.n).normal_angle, 0);
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+// The can is 1e-3 deep; its size is 0.5.
+const Judged judged[] = {
+    {"no contact inside", standing, none(), Outcome::missed, 2e-3},
+    {"no contact within the bar", lifted(1e-3 - 2e-5), none(), Outcome::unseen},
+    {"no contact beyond a bar", lifted(1e-3 - 2e-5), none(), Outcome::missed, 4e-5, {1e-6, 0}},
+    {"what doubles tell from a touch", lifted(1e-3 - 1e-12), none(), Outcome::unseen},
+    {"what they do not", lifted(1e-3 - 1e-14), none(), Outcome::agree},
+    {"no contact of a touch", lifted(1e-3), none(), Outcome::agree},
+    {"no contact apart", lifted(0.1), none(), Outcome::agree},
+    {"half the depth", standing, contact(-0.5e-3, up), Outcome::shallow, 1e-3},
+    {"twice the depth", standing, contact(-2e-3, up), Outcome::overdeep, 2e-3},
+    {"a reversed normal", standing, contact(-1e-3, -up), Outcome::wrong_normal, 8 - 4e-3},
+    {"a normal of length two", standing, contact(-1e-3, 2 * up), Outcome::wrong_normal},
+    {"no normal", standing, contact(-1e-3, Vec3::Zero()), Outcome::wrong_normal},
+    {"a contact apart", lifted(0.011), contact(0.01, up), Outcome::phantom},
+    {"within the threshold", lifted(0.011), contact(0.01, up), Outcome::agree, 0, {bar, 0.02}},
+    {"a failure", standing, with_status(TS_FAILED), Outcome::failed},
+    {"no routine", standing, with_status(TS_UNSUPPORTED), Outcome::unsupported},
+    {"a depth of NaN", standing, contact(nan, up), Outcome::not_finite},
+    {"a normal of NaN", standing, contact(-1e-3, Vec3(0, nan, 1)), Outcome::not_finite},
+    {"a point at infinity", standing, and_point({{0, infinite, 0}, {0, 0, 1}, 1e-3}),
+     Outcome::not_finite},
+    {"one point of three deep enough", standing, with_depths({0, 1e-3, 2e-4}), Outcome::agree},
+    {"none deep enough", standing, with_depths({0, 4e-4}), Outcome::shallow_points, 1.2e-3},
+    {"one too deep", standing, with_depths({1e-3, 3e-3}), Outcome::overdeep_points, 4e-3},
+    {"lacking less than the bar", standing, with_depths({1e-3 - 2e-5}), Outcome::agree, 4e-5},
+    {"more than a bar",
+     standing,
+     with_depths({1e-3 - 2e-5}),
+     Outcome::shallow_points,
+     4e-5,
+     {1e-5, 0}},
+    {"no point", standing, with_depths({}), Outcome::no_points, 2e-3},
+    {"no point of a touch", lifted(1e-3), with_depths({}, 0), Outcome::no_points},
+    {"no point apart", lifted(0.011), with_depths({}, 0.01), Outcome::agree, 0, {bar, 0.02}},
+    {"depth before points", standing, with_depths({0}, -0.5e-3), Outcome::shallow, 2e-3},
+    {"normal before points", standing, with_depths({0}, -1e-3, Vec3::UnitX()),
+     Outcome::wrong_normal, 1 + std::sqrt(5)},
+    {"a point beyond the threshold", standing, with_depths({1e-3, -2e-3}), Outcome::phantom_points,
+     4e-3},
+    {"a point within it", standing, with_depths({1e-3, -2e-3}), Outcome::agree, 0, {bar, 2e-3}},
+    {"a point above the box", standing, and_point({{0.2, 0, 1 + 6e-5}, {0, 0, 1}, 0}),
+     Outcome::off_body, 1.2e-4},
+    {"by less than its depth and the bar", standing,
+     and_point({{0.2, 0, 1 + 6e-5}, {0, 0, 1}, 2e-5}), Outcome::agree},
+    {"a point within both", standing, and_point({{0.2, 0, 0.9995}, {0, 0, 1}, 0}), Outcome::agree},
+    {"a point far away", standing, and_point({{12.6, 0, 1}, {0, 0, 1}, 1e-3}), Outcome::off_body,
+     (12.1 - 1e-3) / 0.5},
+    {"far away, but for the bar",
+     standing,
+     and_point({{12.6, 0, 1}, {0, 0, 1}, 1e-3}),
+     Outcome::agree,
+     0,
+     {100, 0}},
+};
+
+TEST(Score, NamesOutcomesAfterTheSymptomWithTheSizeOfTheFailure) {
+  constexpr double rounding = 1e-12;
+  for (const Judged& row : judged) {
+    SCOPED_TRACE(row.what);
+    const Score s = scored(row.c, row.answer, row.bar);
+    EXPECT_STREQ(outcome_name(s.outcome), outcome_name(row.outcome));
+    EXPECT_NEAR(s.severity, row.severity, rounding);
   }
-  for (const Vec3& radial : {Vec3(0.6, 0.8, 0), Vec3(0, -1, 0), Vec3(-0.8, 0.6, 0)}) {
-    EXPECT_NEAR(*along(c, radial).normal_regret, 0, 1e-15);
-    EXPECT_EQ(*along(c, radial).normal_angle, 0);
-  }
+  EXPECT_TRUE(agrees(Outcome::unseen));
 }
 
-TEST(NormalAngle, IsNoneWithinAnArcAndBeyondItsEndsTheAngleToTheNearerOne) {
-  // A rim that touches a box's edge exactly: all directions between those of the cap and the face.
-  const Configuration c{Cylinder(1, 1), Pose(Vec3(0, 0, 2), {1, 0, 0, 0}), Box(Vec3(1, 1, 1)),
-                        Pose(Vec3(2, 0, 0), {1, 0, 0, 0})};
-  const oracle::Truth truth = oracle::truth(c);
-  ASSERT_EQ(truth.ties, oracle::Ties::continuum);
-  ASSERT_EQ(truth.families.size(), 1u);
-  const oracle::NormalFamily& arc = truth.families[0];
-  ASSERT_EQ(arc.kind, oracle::NormalFamily::Kind::arc);
-  const Vec3 middle = (arc.ends[0] + arc.ends[1]).normalized();
-  EXPECT_NEAR(*along(c, middle).normal_angle, 0, angle_rounding);
-  EXPECT_NEAR(*along(c, turned(middle, middle.cross(arc.axis), 2)).normal_angle, 2, 1e-6);
-  EXPECT_NEAR(*along(c, turned(arc.ends[1], arc.axis, 3)).normal_angle, 3, 1e-9);
+TEST(Score, OfDeepestPointsIsSignedAsTheDepthIs) {
+  EXPECT_NEAR(*scored(standing, with_depths({0, 4e-4})).deepest_error, -1.2e-3, 1e-12);
+  EXPECT_NEAR(*scored(standing, with_depths({1e-3, 3e-3})).deepest_error, 4e-3, 1e-12);
+  EXPECT_NEAR(*scored(standing, contact(-0.5e-3, up)).depth_error, 1e-3, 1e-12);
+  EXPECT_FALSE(scored(standing, with_depths({})).deepest_error);
 }
 
 TEST(Score, SaysHowFarPointsAreOffTheBodies) {
@@ -128,152 +158,6 @@ TEST(Score, ErrorsBeyondTheLargestDoubleAreTheLargestDouble) {
   EXPECT_EQ(s.outcome, Outcome::overdeep);
 }
 
-/// Bodies 1e-3 deep (2e-3 of the size) with points of these depths.
-ts_answer with_depths(const std::vector<double>& depths) {
-  ts_answer a = contact(-1e-3, up);
-  a.point_count = static_cast<int>(depths.size());
-  for (std::size_t i = 0; i < depths.size(); ++i) {
-    a.points[i] = {{0, 0, 1}, {0, 0, 1}, depths[i]};
-  }
-  return a;
-}
-
-TEST(DeepestPoint, WithTheDepthAgreesHoweverShallowTheOthersAre) {
-  const Score s = scored(standing, with_depths({0, 1e-3, 2e-4}));
-  EXPECT_EQ(s.outcome, Outcome::agree);
-  EXPECT_NEAR(*s.deepest_error, 0, 1e-12);
-}
-
-TEST(DeepestPoint, WithoutTheDepthIsShallowPointsByWhatIsLacking) {
-  const Score s = scored(standing, with_depths({0, 4e-4}));
-  EXPECT_EQ(s.outcome, Outcome::shallow_points);
-  EXPECT_NEAR(*s.depth_error, 0, 1e-12);
-  EXPECT_NEAR(*s.deepest_error, -0.6e-3 / 0.5, 1e-12);
-  EXPECT_NEAR(s.severity, 0.6e-3 / 0.5, 1e-12);
-}
-
-TEST(DeepestPoint, DeeperThanTheBodiesIsOverdeepPointsByTheExcess) {
-  const Score s = scored(standing, with_depths({1e-3, 3e-3}));
-  EXPECT_EQ(s.outcome, Outcome::overdeep_points);
-  EXPECT_NEAR(*s.deepest_error, 2e-3 / 0.5, 1e-12);
-  EXPECT_NEAR(s.severity, 2e-3 / 0.5, 1e-12);
-}
-
-TEST(DeepestPoint, IsJudgedAtTheBar) {
-  const ts_answer lacking = with_depths({1e-3 - 2e-5});  // 4e-5 of the size
-  EXPECT_EQ(scored(standing, lacking).outcome, Outcome::agree);
-  EXPECT_EQ(scored(standing, lacking, {.tolerance = 1e-5, .threshold = 0}).outcome,
-            Outcome::shallow_points);
-}
-
-TEST(DeepestPoint, OfAContactWithoutPointsIsLackingAltogether) {
-  const Score s = scored(standing, with_depths({}));
-  EXPECT_EQ(s.outcome, Outcome::no_points);
-  EXPECT_FALSE(s.deepest_error);
-  EXPECT_NEAR(s.severity, 1e-3 / 0.5, 1e-12);
-  // Nor do bodies rest on nothing where they only touch.
-  ts_answer touching = with_depths({});
-  touching.signed_distance = 0;
-  EXPECT_EQ(scored(lifted(1e-3), touching).outcome, Outcome::no_points);
-  ts_answer apart = with_depths({});
-  apart.signed_distance = 0.01;
-  EXPECT_EQ(scored(lifted(0.011), apart, {.tolerance = 1e-4, .threshold = 0.02}).outcome,
-            Outcome::agree);
-}
-
-TEST(DeepestPoint, IsNotSoughtWhereDepthOrNormalAreWrong) {
-  ts_answer shallow = with_depths({0});
-  shallow.signed_distance = -0.5e-3;
-  EXPECT_EQ(scored(standing, shallow).outcome, Outcome::shallow);
-  ts_answer sideways = with_depths({0});
-  sideways.normal[0] = 1, sideways.normal[2] = 0;
-  EXPECT_EQ(scored(standing, sideways).outcome, Outcome::wrong_normal);
-}
-
-TEST(Points, OffTheBodiesByMoreThanTheBarAreAnOutcomeBySoMuch) {
-  ts_answer a = contact(-1e-3, up);
-  a.point_count = 2;
-  a.points[1] = {{0.2, 0, 1 + 6e-5}, {0, 0, 1}, 0};  // above the box, by more than 1e-4 of the size
-  EXPECT_EQ(scored(standing, a).outcome, Outcome::off_body);
-  a.points[1].depth = 2e-5;
-  EXPECT_EQ(scored(standing, a).outcome, Outcome::agree);
-  a.points[1] = {{0.2, 0, 0.9995}, {0, 0, 1}, 0};  // within both
-  EXPECT_EQ(scored(standing, a).outcome, Outcome::agree);
-  a.points[1] = {{12.6, 0, 1}, {0, 0, 1}, 1e-3};
-  const Score far = scored(standing, a);
-  EXPECT_EQ(far.outcome, Outcome::off_body);
-  EXPECT_NEAR(far.severity, (12.6 - 0.5) / 0.5, 0.01);
-  EXPECT_EQ(scored(standing, a, {.tolerance = 100, .threshold = 0}).outcome, Outcome::agree);
-  // Where depth or normal are wrong, these come first.
-  a.signed_distance = -2e-3;
-  EXPECT_EQ(scored(standing, a).outcome, Outcome::overdeep);
-}
-
-/// The pose of an outside user: a cylinder that stands 0.1 mm deep on a floor of 200 m.
-const Configuration on_floor{Cylinder(1, 1), Pose(Vec3(3, -2, 0.9999), {1, 0, 0, 0}),
-                             Box(Vec3(100, 100, 1)), Pose(Vec3(0, 0, -1), {1, 0, 0, 0})};
-
-TEST(FeltRegret, OfANormalOnAFloorIsThatOnAPlane) {
-  const Configuration on_plane{on_floor.a, on_floor.pose_a, Plane(up, 0), Pose()};
-  for (const double degrees : {4e-4, 0.01, 1.0, 30.0, 90.0}) {
-    const Vec3 n = turned(up, Vec3(0.6, 0.8, 0), degrees);
-    const Score floor = along(on_floor, n), plane = along(on_plane, n);
-    // But for the depth, by which a turned normal comes out of a plane sooner.
-    const double sooner = 1e-4 * (1 - std::cos(degrees * std::numbers::pi / 180));
-    EXPECT_NEAR(*floor.normal_regret, *plane.normal_regret + sooner, 1e-12) << degrees;
-    EXPECT_NEAR(*plane.normal_regret, *plane.whole_regret, 1e-12) << degrees;
-    EXPECT_GT(*floor.whole_regret, 40 * *floor.normal_regret) << degrees;
-  }
-}
-
-TEST(FeltRegret, JudgesTheSmallerBodyWhicheverItIs) {
-  // A die on a table that is a cylinder.
-  const Configuration table{Cylinder(100, 1), Pose(Vec3(0, 0, -1)), Box(Vec3(0.01, 0.01, 0.01)),
-                            Pose(Vec3(40, 5, 0.00999), {1, 0, 0, 0})};
-  for (const double degrees : {1e-3, 1.0}) {
-    const Score s = along(table, turned(-up, Vec3(1, 0, 0), degrees));
-    EXPECT_EQ(s.outcome == Outcome::wrong_normal, degrees == 1.0);
-    EXPECT_LT(*s.normal_regret, 1e-3 * *s.whole_regret);
-  }
-}
-
-TEST(FeltRegret, OfBodiesOfOneSizeIsThatOfTheWholeBodies) {
-  const Configuration cans{Cylinder(0.5, 1), Pose(Vec3(0, 0, 1.999)), Cylinder(0.5, 1), Pose()};
-  for (const double degrees : {1e-3, 0.1, 10.0, 90.0}) {
-    const Score s = along(cans, turned(up, Vec3(1, 0, 0), degrees));
-    EXPECT_EQ(s.normal_regret, s.whole_regret) << degrees;
-  }
-}
-
-TEST(FeltRegret, OfANormalAcrossIsWrongHoweverDeepTheBodiesAre) {
-  // Deeper than the cylinder is wide: across, the column beneath it would end sooner.
-  const Configuration sunk{Cylinder(0.5, 0.5), Pose(Vec3(0, 0, -4)), Box(Vec3(100, 100, 50)),
-                           Pose(Vec3(0, 0, -50), {1, 0, 0, 0})};
-  EXPECT_EQ(along(sunk, Vec3(1, 0, 0)).outcome, Outcome::wrong_normal);
-  EXPECT_EQ(along(sunk, -up).outcome, Outcome::wrong_normal);
-  // All directions across the axis tie, and the one between them and the axis is none of them.
-  const Configuration concentric{Cylinder(1, 1), Pose(), Sphere(1), Pose()};
-  EXPECT_GT(*along(concentric, Vec3(0, 0.6, 0.8)).normal_regret, 0.3);
-}
-
-TEST(FeltRegret, OfANormalDoesNotGrowWithAFloor) {
-  // 0.0004 degrees off are nothing to a can, a degree is much, on 20 m as on 20 km.
-  for (const double half : {10.0, 100.0, 1e4}) {
-    const Configuration c{on_floor.a, on_floor.pose_a, Box(Vec3(half, half, 1)), on_floor.pose_b};
-    EXPECT_LT(*along(c, turned(up, Vec3(0, 1, 0), 4e-4)).normal_regret, 2e-5) << half;
-    EXPECT_EQ(along(c, turned(up, Vec3(0, 1, 0), 1)).outcome, Outcome::wrong_normal) << half;
-  }
-}
-
-TEST(Points, BeyondTheThresholdArePhantomPointsByTheGap) {
-  const ts_answer far = with_depths({1e-3, -2e-3});
-  const Score s = scored(standing, far);
-  EXPECT_EQ(s.outcome, Outcome::phantom_points);
-  EXPECT_NEAR(s.severity, 2e-3 / 0.5, 1e-12);
-  EXPECT_NEAR(*s.deepest_error, 0, 1e-12);
-  EXPECT_EQ(scored(standing, far, {.tolerance = 1e-4, .threshold = 2e-3}).outcome, Outcome::agree);
-}
-
 // Parallel sides that a tilt of 0.03 makes cross: signed distance and normal are right to the last
 // digits, but a solver sees no depth.
 TEST(DeepestPoint, IsLackingWhereOurOwnCapsuleOnceHadPointsAtTheEndsOnly) {
@@ -295,22 +179,6 @@ TEST(DeepestPoint, IsLackingWhereOurOwnCapsuleOnceHadPointsAtTheEndsOnly) {
   EXPECT_NEAR(*s.deepest_error, -0.00244 / 0.25, 1e-4);
 }
 
-TEST(Score, OutcomesAreNamedAfterTheSymptom) {
-  EXPECT_EQ(scored(standing, none()).outcome, Outcome::missed);
-  EXPECT_EQ(scored(standing, contact(-0.5e-3, up)).outcome, Outcome::shallow);
-  EXPECT_EQ(scored(standing, contact(-2e-3, up)).outcome, Outcome::overdeep);
-  EXPECT_EQ(scored(standing, contact(-1e-3, -up)).outcome, Outcome::wrong_normal);
-  EXPECT_EQ(scored(standing, contact(-1e-3, Vec3(0, 0, 2))).outcome, Outcome::wrong_normal);
-  EXPECT_EQ(scored(standing, contact(-1e-3, Vec3::Zero())).outcome, Outcome::wrong_normal);
-  EXPECT_EQ(scored(lifted(0.1), contact(-1e-3, up)).outcome, Outcome::phantom);
-  EXPECT_EQ(scored(lifted(0.1), none()).outcome, Outcome::agree);
-  ts_answer broken = none();
-  broken.status = TS_FAILED;
-  EXPECT_EQ(scored(standing, broken).outcome, Outcome::failed);
-  broken.status = TS_UNSUPPORTED;
-  EXPECT_EQ(scored(standing, broken).outcome, Outcome::unsupported);
-}
-
 TEST(Score, EveryOutcomeIsListedOnceInItsPlaceWithANameOfItsOwn) {
   std::set<std::string> names;
   for (std::size_t i = 0; i < all_outcomes.size(); ++i) {
@@ -318,21 +186,6 @@ TEST(Score, EveryOutcomeIsListedOnceInItsPlaceWithANameOfItsOwn) {
     EXPECT_TRUE(names.insert(outcome_name(all_outcomes[i])).second);
     EXPECT_EQ(find_outcome(outcome_name(all_outcomes[i])), all_outcomes[i]);
   }
-}
-
-TEST(Score, NotANumberAnywhereIsNotFinite) {
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(scored(standing, contact(nan, up)).outcome, Outcome::not_finite);
-  EXPECT_EQ(scored(standing, contact(-1e-3, Vec3(0, nan, 1))).outcome, Outcome::not_finite);
-  ts_answer in_point = contact(-1e-3, up);
-  in_point.points[0].position[1] = std::numeric_limits<double>::infinity();
-  EXPECT_EQ(scored(standing, in_point).outcome, Outcome::not_finite);
-}
-
-TEST(Score, ErrorsAreRelativeToTheSmallerSize) {
-  const Score s = scored(standing, contact(-0.5e-3, up));
-  EXPECT_NEAR(*s.depth_error, 0.5e-3 / 0.5, 1e-12);
-  EXPECT_NEAR(s.severity, 1e-3, 1e-12);
 }
 
 TEST(Score, ErrorsAreRelativeToAShareOfTheLargerSizeWhereDoublesSayNoMore) {
@@ -349,101 +202,6 @@ TEST(Score, ErrorsAreRelativeToAShareOfTheLargerSizeWhereDoublesSayNoMore) {
 TEST(Score, ReversedNormalRegretsTheWholeWayThrough) {
   // Along −z the bodies overlap by 2·1 + 2·1 − 1e-3.
   EXPECT_NEAR(*scored(standing, contact(-1e-3, -up)).normal_regret, (4 - 2e-3) / 0.5, 1e-9);
-}
-
-TEST(Score, WhatIsWithinTheBarMayBeMissed) {
-  const Configuration touching = lifted(1e-3 - 2e-5);  // 4e-5 of the size deep
-  EXPECT_EQ(scored(touching, none()).outcome, Outcome::unseen);
-  EXPECT_TRUE(agrees(Outcome::unseen));
-  EXPECT_EQ(scored(touching, none()).severity, 0);
-  EXPECT_EQ(scored(touching, none(), {.tolerance = 1e-6, .threshold = 0}).outcome, Outcome::missed);
-}
-
-TEST(Score, WhatDoublesDoNotTellFromATouchNeedsNoContact) {
-  EXPECT_EQ(scored(lifted(1e-3 - 1e-14), none()).outcome, Outcome::agree);
-  EXPECT_EQ(scored(lifted(1e-3 - 1e-12), none()).outcome, Outcome::unseen);
-  EXPECT_EQ(scored(lifted(1e-3), none()).outcome, Outcome::agree);
-}
-
-TEST(Score, ThresholdAllowsContactsThatFarApart) {
-  const Configuration apart = lifted(0.011);
-  EXPECT_EQ(scored(apart, contact(0.01, up)).outcome, Outcome::phantom);
-  EXPECT_EQ(scored(apart, contact(0.01, up), {.tolerance = 1e-4, .threshold = 0.02}).outcome,
-            Outcome::agree);
-}
-
-ts_answer contact_at(const std::vector<Vec3>& positions, const Vec3& normal = up) {
-  ts_answer a = contact(-1e-3, normal);
-  a.point_count = static_cast<int>(positions.size());
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    a.points[i] = a.points[0];
-    for (int k = 0; k < 3; ++k) a.points[i].position[k] = positions[i][k];
-  }
-  return a;
-}
-
-std::vector<Vec3> on_rim(int count) {
-  std::vector<Vec3> points;
-  for (int i = 0; i < count; ++i) {
-    const double angle = 2 * std::numbers::pi * i / count;
-    points.push_back(Vec3(0.5 * std::cos(angle), 0.5 * std::sin(angle), 1));
-  }
-  return points;
-}
-
-/// `standing`, leaning by an angle.
-Configuration leaning(double angle) {
-  return {standing.a, Pose(standing.pose_a.position(), Eigen::Quaterniond(1, 0, angle / 2, 0)),
-          standing.b, standing.pose_b};
-}
-
-TEST(Coverage, OfAStandingCylinderGrowsWithItsPoints) {
-  constexpr double inscribed = 1e-3;  // the patch is a polygon in the disc
-  for (const int count : {3, 4, 8}) {
-    EXPECT_NEAR(*scored(standing, contact_at(on_rim(count))).coverage,
-                std::cos(std::numbers::pi / count), inscribed);
-  }
-  EXPECT_EQ(*scored(standing, contact(-1e-3, up)).coverage, 0);
-}
-
-TEST(Coverage, HairTiltedCylindersStillStandAndTiltedOnesTouchInAPoint) {
-  const Bar loose{.tolerance = 0.1, .threshold = 0};
-  EXPECT_NEAR(*scored(leaning(1e-9), contact_at(on_rim(3)), loose).coverage, 0.5, 1e-3);
-  EXPECT_EQ(*scored(leaning(1e-9), contact(-1e-3, up), loose).coverage, 0);
-  EXPECT_EQ(*scored(leaning(0.017), contact(-1e-3, up), loose).coverage, 1);
-}
-
-TEST(Coverage, OfALyingCylinderNeedsBothEnds) {
-  const Configuration lying{Cylinder(0.5, 1),
-                            Pose(Vec3(0, 0, 0.499), Eigen::Quaterniond(1, 0, 1, 0)), Plane(up, 0),
-                            Pose()};
-  EXPECT_NEAR(*scored(lying, contact_at({Vec3(-1, 0, 0), Vec3(1, 0, 0)})).coverage, 1, 1e-9);
-  EXPECT_NEAR(*scored(lying, contact_at({Vec3(-0.5, 0, 0), Vec3(1, 0, 0)})).coverage, 0.5, 1e-9);
-  EXPECT_EQ(*scored(lying, contact_at({Vec3(0, 0, 0)})).coverage, 0);
-}
-
-TEST(Coverage, OfARoundContactIsOneWithOnePointHoweverLargeTheSphere) {
-  for (const double radius : {0.5, 5e3}) {
-    const Configuration c{Cylinder(0.5, 1), Pose(Vec3(0, 0, 0.999), Eigen::Quaterniond::Identity()),
-                          Sphere(radius),
-                          Pose(Vec3(0, 0, -radius), Eigen::Quaterniond::Identity())};
-    EXPECT_EQ(*scored(c, contact_at({Vec3::Zero()})).coverage, 1);
-  }
-}
-
-TEST(Coverage, OfAContinuumIsThatOfTheAnswersOwnNormal) {
-  // Coaxial: a ring of radial normals, each with a segment across the shared length.
-  const Configuration coaxial{Cylinder(0.5, 1), Pose(), Cylinder(0.25, 4), Pose()};
-  const Vec3 n = Vec3(3, 4, 0) / 5;
-  ts_answer a = contact_at({-0.5 * n + Vec3(0, 0, -1), -0.5 * n + Vec3(0, 0, 1)}, n);
-  a.signed_distance = -0.75;
-  EXPECT_NEAR(*scored(coaxial, a).coverage, 1, 1e-9);
-}
-
-TEST(Coverage, IsUndefinedWithoutARightContact) {
-  EXPECT_FALSE(scored(standing, none()).coverage);
-  EXPECT_FALSE(scored(standing, contact(-1e-3, Vec3(1, 0, 0))).coverage);
-  EXPECT_FALSE(scored(lifted(0.1), contact(-1e-3, up)).coverage);
 }
 
 TEST(PointDistance, OfEveryShape) {
@@ -540,93 +298,6 @@ TEST(PointExcess, LeavesAPointWhatItsCoordinatesRoundTo) {
   const Configuration far{Cylinder(1, 1), Pose(Vec3(1e12, 0, 0)), Sphere(1),
                           Pose(Vec3(1e12, 0, 1.75), {1, 0, 0, 0})};
   EXPECT_LE(point_excess(far, {{1e12, 0, 1.001}, {0, 0, 1}, 0.25}), 0);
-}
-
-using oracle::BoundaryPiece;
-using oracle::ContactPatch;
-using oracle::ConvexSet;
-using oracle::Vec2;
-
-constexpr double pi = std::numbers::pi;
-constexpr double rounding = 1e-14;
-constexpr double fine = 1e-3;
-
-const ContactPatch::Plane plane{Vec3(1, 2, 3), Vec3(0, 1, 0), Vec3(0, 0, 1)};
-
-ContactPatch patch(const ConvexSet& shape) { return {plane, shape}; }
-
-ContactPatch disc(double radius) {
-  return patch(ConvexSet::region({BoundaryPiece::arc(Vec2::Zero(), radius, 0, 2 * pi)}));
-}
-
-std::vector<Vec3> on_circle(int count, double radius, const Vec2& centre = Vec2::Zero()) {
-  std::vector<Vec3> points;
-  for (int i = 0; i < count; ++i) {
-    const double angle = 0.3 + 2 * pi * i / count;
-    // Off the plane as well: points are seen along the normal.
-    points.push_back(disc(1).in_world(centre + radius * Vec2(std::cos(angle), std::sin(angle))) +
-                     Vec3(i, 0, 0));
-  }
-  return points;
-}
-
-TEST(Coverage, OfAFullDiscByPointsEvenlyRoundItsRim) {
-  for (const int count : {3, 4, 8}) {
-    EXPECT_NEAR(coverage(disc(2), on_circle(count, 2), fine), std::cos(pi / count), rounding);
-  }
-}
-
-TEST(Coverage, OfAnyPatchByItsCornersIsOne) {
-  const std::vector<Vec2> corners{{0, 0}, {4, 0}, {4, 1}, {1, 3}};
-  const ContactPatch p = patch(ConvexSet::polygon(corners));
-  EXPECT_NEAR(coverage(p, p.outline(), fine), 1, rounding);
-}
-
-TEST(Coverage, ShrinksWithThePointsAboutTheCentroid) {
-  EXPECT_NEAR(coverage(disc(2), on_circle(4, 1), fine), std::cos(pi / 4) / 2, rounding);
-}
-
-TEST(Coverage, PointsBeyondThePatchCoverItOnce) {
-  EXPECT_EQ(coverage(disc(1), on_circle(3, 10), fine), 1);
-}
-
-TEST(Coverage, IsZeroUnlessPointsSurroundTheCentroid) {
-  EXPECT_EQ(coverage(disc(1), {}, fine), 0);
-  EXPECT_EQ(coverage(disc(1), on_circle(1, 0), fine), 0);
-  EXPECT_EQ(coverage(disc(1), on_circle(2, 1), fine), 0);
-  EXPECT_EQ(coverage(disc(1), on_circle(3, 0.2, Vec2(0.5, 0)), fine), 0);
-}
-
-TEST(Coverage, OfASegmentIsTheReachToItsShorterSide) {
-  const ContactPatch p = patch(ConvexSet::segment({-1, 0}, {3, 0}));
-  const auto at = [&](double x) { return p.in_world({x, 0}); };
-  EXPECT_NEAR(coverage(p, {at(-1), at(3)}, fine), 1, rounding);
-  EXPECT_NEAR(coverage(p, {at(0), at(3)}, fine), 0.5, rounding);
-  EXPECT_NEAR(coverage(p, {at(-1), at(0.9)}, fine), 0, rounding);
-  EXPECT_NEAR(coverage(p, {at(-1), at(1), at(2)}, fine), 0.5, rounding);
-  EXPECT_EQ(coverage(p, {}, fine), 0);
-}
-
-TEST(Coverage, OfAPointIsOneWithAnyPoint) {
-  const ContactPatch p = patch(ConvexSet::point({1, 1}));
-  EXPECT_EQ(coverage(p, {Vec3(9, 9, 9)}, fine), 1);
-  EXPECT_EQ(coverage(p, {}, fine), 0);
-}
-
-TEST(Coverage, WhatIsNarrowerThanTheResolutionDoesNotCount) {
-  const auto strip = [](double length, double width) {
-    return patch(ConvexSet::polygon({{0, 0}, {length, 0}, {length, width}, {0, width}}));
-  };
-  const ContactPatch band = strip(4, 1e-4);
-  EXPECT_NEAR(coverage(band, {band.in_world({0, 0}), band.in_world({4, 0})}, fine), 1, rounding);
-  EXPECT_EQ(coverage(strip(1e-3, 1e-4), {Vec3::Zero()}, fine), 1);
-  EXPECT_EQ(coverage(strip(4, 1), {Vec3::Zero()}, fine), 0);
-}
-
-TEST(Coverage, DoesNotDependOnTheUnitOfLength) {
-  for (const double scale : {1e-6, 1e6}) {
-    EXPECT_NEAR(coverage(disc(2 * scale), on_circle(3, 2 * scale), fine * scale), 0.5, 1e-9);
-  }
 }
 
 }  // namespace
