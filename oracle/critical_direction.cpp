@@ -72,10 +72,6 @@ class PlaneDirection : public CriticalDirection {
 
 }  // namespace
 
-IntegerVector off_axis(const IntegerVector& q, const Frame& frame) {
-  return dot(q, frame.e) * frame.e + dot(q, frame.f) * frame.f;
-}
-
 TurnedFrame turned_frame(const Frame& frame, double heading) {
   if (heading == 0) return {frame, 1};
   const Integer tangent(std::ldexp(heading, heading_bits));
@@ -83,18 +79,6 @@ TurnedFrame turned_frame(const Frame& frame, double heading) {
   const Integer cosine = one * one - tangent * tangent, sine = 2 * one * tangent;
   return {{frame.axis, cosine * frame.e + sine * frame.f, cosine * frame.f - sine * frame.e},
           one * one + tangent * tangent};
-}
-
-IntegerVector reduced_point(const Difference& difference, unsigned signs,
-                            const Difference::Segment* skipped) {
-  IntegerVector q = difference.d;
-  for (std::size_t i = 0; i < difference.segments.size(); ++i) {
-    const auto& s = difference.segments[i];
-    if (&s == skipped) continue;
-    const IntegerVector half = s.half_length * s.frame.axis;
-    q = (signs >> i & 1U) ? q - half : q + half;
-  }
-  return q;
 }
 
 std::vector<IntegerVector> signed_axes(const Difference& difference, unsigned signs,

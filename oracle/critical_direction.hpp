@@ -126,15 +126,6 @@ std::vector<IntegerVector> signed_axes(const Difference& difference, unsigned si
 /// arc. An arc without ends is empty.
 DirectionFamily sector(const IntegerVector& line, const std::vector<IntegerVector>& inward);
 
-/// d − Σ sign·half_length·axis over the segments other than `skipped`: the reduced point after each
-/// of these segments has been replaced by one of its ends. Bit i of `signs` is the sign of segment
-/// i. Times norm, like d.
-IntegerVector reduced_point(const Difference& difference, unsigned signs,
-                            const Difference::Segment* skipped = nullptr);
-
-/// The component of q perpendicular to a frame's axis, times norm².
-IntegerVector off_axis(const IntegerVector& q, const Frame& frame);
-
 enum class Side { no, undecided, yes };
 
 /// Is the direction on the side of every segment's axis that `signs` says? Undecided where balls

@@ -36,7 +36,6 @@ class Search {
   void isolate(const CriticalSite& site, std::vector<CriticalSite>& out);
   bool isolate_line(const CriticalSite& site);
   bool isolate_rims(const CriticalSite& site);
-  IntervalVector vertex(unsigned signs) const;
 
   const Difference& exact_;
   CGAL::Protect_FPU_rounding<true> rounding_;
@@ -67,17 +66,6 @@ Search::Search(const Difference& difference, double slack)
       difference_(difference),
       threshold_(Interval(slack) * difference_.metre) {}
 
-/// d minus the ends of the segments that `signs` selects.
-IntervalVector Search::vertex(unsigned signs) const {
-  IntervalVector q = difference_.d;
-  for (std::size_t i = 0; i < difference_.segments.size(); ++i) {
-    const auto& s = difference_.segments[i];
-    const IntervalVector half = s.half_length * s.frame.axis;
-    q = (signs >> i & 1U) ? q - half : q + half;
-  }
-  return q;
-}
-
 void Search::search_directions() {
   const auto add = [&](const CriticalSite& site, const IntervalVector& n) {
     const auto [forth, back] = difference_.gaps(n);
@@ -100,13 +88,11 @@ void Search::search_rim_vertices() {
   if (difference_.discs.size() != 1) return;
   const auto& disc = difference_.discs.front();
   for (unsigned signs = 0; signs < 1U << difference_.segments.size(); ++signs) {
-    const IntervalVector q = vertex(signs);
-    const IntervalVector off_axis =
-        dot(q, disc.frame.e) * disc.frame.e + dot(q, disc.frame.f) * disc.frame.f;
-    const Interval length =
-        square_root<Interval>(square(off_axis.x) + square(off_axis.y) + square(off_axis.z));
+    const IntervalVector q = reduced_point(difference_, signs);
+    const IntervalVector across = off_axis(q, disc.frame);
+    const Interval length = norm(across);
     if ((length - disc.radius).sup() < 0) continue;
-    const IntervalVector n = q - (disc.radius / length) * off_axis;
+    const IntervalVector n = q - (disc.radius / length) * across;
     const Interval gap = difference_.gaps(n).forth;
     threshold_.raise(gap);
     directions_.push_back({{Kind::rim_vertex, 0, 0, signs}, gap});
@@ -118,9 +104,7 @@ constexpr int max_splits = 5;
 
 /// With a single segment the only disc is perpendicular to it: no curve needs to be searched.
 void Search::search_radial() {
-  const auto& frame = difference_.segments.front().frame;
-  const IntervalVector n =
-      dot(difference_.d, frame.e) * frame.e + dot(difference_.d, frame.f) * frame.f;
+  const IntervalVector n = off_axis(difference_.d, difference_.segments.front().frame);
   const Interval gap = difference_.gaps(n).forth;
   threshold_.raise(gap);
   directions_.push_back({{Kind::radial, 0}, gap});

@@ -73,7 +73,7 @@ IntervalDifference::IntervalDifference(const Difference& difference) : scale(dif
 }
 
 OppositeGaps IntervalDifference::gaps(const IntervalVector& n) const {
-  const Interval length = square_root<Interval>(square(n.x) + square(n.y) + square(n.z));
+  const Interval length = norm(n);
   const Interval centre_distance = dot(d, n) / length;
   const Interval half_width = add_half_width(Interval(0), segments, discs, n) / length + inflation;
   return {centre_distance - half_width, -centre_distance - half_width};
@@ -143,16 +143,8 @@ LineSearch::LineSearch(const IntervalDifference& difference, const Difference& e
 
 LineSearch::Direction LineSearch::direction(const Piece& piece, const Interval& t) {
   const Interval length = square_root<Interval>(Interval(1) + square(t));
-  switch (piece.turn) {
-    case 0:
-      return {1, t, length};
-    case 1:
-      return {-t, 1, length};
-    case 2:
-      return {-1, -t, length};
-    default:
-      return {t, -1, length};
-  }
+  const auto [x, y] = turned<Interval>(1, t, piece.turn);
+  return {x, y, length};
 }
 
 OppositeGaps LineSearch::gaps(const Direction& n) const {
@@ -237,10 +229,6 @@ bool LineSearch::reaches(const Piece& piece, const GapThreshold& threshold) cons
 
 namespace {
 
-Interval length(const IntervalVector& v) {
-  return square_root<Interval>(square(v.x) + square(v.y) + square(v.z));
-}
-
 /// Cosine and sine from t = tan(angle/2) within [-1, 1], where the sine is monotone and the cosine
 /// decreases with |t|.
 Angle<Interval> half_angle(double lo, double hi) {
@@ -254,21 +242,6 @@ Angle<Interval> half_angle(double lo, double hi) {
   const double near = lo <= 0 && 0 <= hi ? 0 : std::min(std::abs(lo), std::abs(hi));
   const double far = std::max(std::abs(lo), std::abs(hi));
   return {{cosine(far).inf(), cosine(near).sup()}, {sine(lo).inf(), sine(hi).sup()}};
-}
-
-}  // namespace
-
-namespace {
-
-/// The reduced point at one vertex of the two segments.
-IntervalVector reduced_point(const IntervalDifference& difference, unsigned signs) {
-  IntervalVector q = difference.d;
-  for (unsigned i = 0; i < 2; ++i) {
-    const auto& s = difference.segments[i];
-    const Interval end = (signs >> i & 1U) ? s.half_length : -s.half_length;
-    q = q - end * s.frame.axis;
-  }
-  return q;
 }
 
 }  // namespace
@@ -289,7 +262,7 @@ RimSearch::Point RimSearch::at(unsigned turn, double lo, double hi) const {
   p.w = {radius1_ * p.angle.cosine - q_.x, radius1_ * p.angle.sine - q_.y, -q_.z};
   p.w_u = dot(p.w, axis2_);
   p.off_axis = p.w - p.w_u * axis2_;
-  p.off_axis_length = length(p.off_axis);
+  p.off_axis_length = norm(p.off_axis);
   return p;
 }
 

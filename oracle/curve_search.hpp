@@ -29,6 +29,10 @@ inline Interval square_root(const Interval& x) {
   return {(Interval(rounded_up) * Interval(below)).inf(), std::sqrt(x.sup())};
 }
 
+inline Interval norm(const IntervalVector& v) {
+  return square_root<Interval>(square(v.x) + square(v.y) + square(v.z));
+}
+
 /// Rises with x, towards zero with |y|: taken at the ends, so that no width is added.
 template <>
 inline Interval cosine_towards(const Interval& x, const Interval& y) {

@@ -2,6 +2,7 @@
 
 #include <boost/container/static_vector.hpp>
 #include <gmpxx.h>
+#include <utility>
 
 #include "oracle/ball.hpp"
 #include "reference/configuration.hpp"
@@ -67,6 +68,43 @@ IntegerVector in_frame_of_a(const Difference& difference, const Vec3& world);
 /// `width` times the larger size, in units. Throws InvalidInput unless it is positive and finite.
 Float width_in_units(const Difference& difference, const Configuration& configuration,
                      double width);
+
+/// d − Σ sign·half_length·axis over the segments other than `skipped`, in any arithmetic: the
+/// reduced point after each of these segments has been replaced by one of its ends. Bit i of
+/// `signs` is the sign of segment i. Times what d is times.
+template <class AnyDifference>
+auto reduced_point(const AnyDifference& difference, unsigned signs,
+                   const typename AnyDifference::Segment* skipped = nullptr) {
+  auto q = difference.d;
+  for (std::size_t i = 0; i < difference.segments.size(); ++i) {
+    const auto& s = difference.segments[i];
+    if (&s == skipped) continue;
+    const auto half = s.half_length * s.frame.axis;
+    q = (signs >> i & 1U) ? q - half : q + half;
+  }
+  return q;
+}
+
+/// The component of q perpendicular to a frame's axis, times the square of the frame's length.
+template <class Number, class AnyFrame>
+Vector3<Number> off_axis(const Vector3<Number>& q, const AnyFrame& frame) {
+  return dot(q, frame.e) * frame.e + dot(q, frame.f) * frame.f;
+}
+
+/// The plane vector (x, y) turned counterclockwise by that many quarters.
+template <class Number>
+std::pair<Number, Number> turned(const Number& x, const Number& y, unsigned quarters) {
+  switch (quarters) {
+    case 0:
+      return {x, y};
+    case 1:
+      return {-y, x};
+    case 2:
+      return {-x, -y};
+    default:
+      return {y, -x};
+  }
+}
 
 /// Adds Σ half_length |axis·n| + Σ radius |axis × n| to `sum`: the half width of a difference,
 /// times |n|, in any arithmetic. `projection` of a segment is |axis·n|, of a disc |axis × n|.

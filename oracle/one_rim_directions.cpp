@@ -66,18 +66,11 @@ class RimVertexDirection : public CriticalDirection {
 //
 //   (q·n')² (n·n − (u·n)²) = radius² (u·n)² (u·n')².
 
-/// The frame with e and f turned by that many quarter turns about its axis.
+/// The frame with e and f turned by that many quarter turns about its axis: the first takes e to f
+/// and f to −e.
 Frame turned(const Frame& frame, unsigned quarters) {
-  switch (quarters) {
-    case 0:
-      return frame;
-    case 1:
-      return {frame.axis, frame.f, -frame.e};
-    case 2:
-      return {frame.axis, -frame.e, -frame.f};
-    default:
-      return {frame.axis, -frame.f, frame.e};
-  }
+  const auto [f, e] = turned(frame.f, frame.e, quarters);
+  return {frame.axis, e, f};
 }
 
 /// The gap along directions perpendicular to one line, at one vertex of the other segments.

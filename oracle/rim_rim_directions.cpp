@@ -40,8 +40,7 @@ struct RimPair {
 /// Rim 1's point at one angle and its stationary partners on rim 2, in balls; lengths in units.
 class StationaryPair {
  public:
-  StationaryPair(const RimPair& rims, const BallDifference& difference, const Ball& cosine,
-                 const Ball& sine);
+  StationaryPair(const RimPair& rims, const BallDifference& difference, const Angle<Ball>& angle);
 
   /// Appends the directions to all points of rim 2 that are stationary for rim 1's point; those of
   /// one branch alone if it is not 0.
@@ -63,7 +62,7 @@ class StationaryPair {
 };
 
 StationaryPair::StationaryPair(const RimPair& rims, const BallDifference& difference,
-                               const Ball& cosine, const Ball& sine)
+                               const Angle<Ball>& angle)
     : difference_(difference),
       axis2_(difference.axis(1)),
       radius1_(rims.radius1, WorkingPrecision::bits()),
@@ -71,8 +70,8 @@ StationaryPair::StationaryPair(const RimPair& rims, const BallDifference& differ
   const Ball inverse_norm = Ball(1) / Ball(rims.norm, WorkingPrecision::bits());
   const auto unit = [&](const IntegerVector& v) { return inverse_norm * to_balls(v); };
   const BallVector e = unit(rims.rim1.e), f = unit(rims.rim1.f);
-  radial_ = cosine * e + sine * f;
-  tangent_ = cosine * f - sine * e;
+  radial_ = angle.cosine * e + angle.sine * f;
+  tangent_ = angle.cosine * f - angle.sine * e;
   w_ = radius1_ * radial_ - unit(rims.q);
   for (unsigned i = 0; i < 2; ++i) {
     up_[i] = (rims.signs >> i & 1U) ? difference.axis(i) : -difference.axis(i);
@@ -205,7 +204,7 @@ std::vector<mpq_class> spurious_points(const RimPair& rims) {
     // p − q, times norm²
     const IntegerVector w = Integer(sign * rims.radius1) * radial - rims.norm * rims.q;
     const IntegerVector off_axis = cross(w, rims.rim2.axis);
-    if (off_axis.x != 0 || off_axis.y != 0 || off_axis.z != 0) continue;
+    if (!is_zero(off_axis)) continue;
     const Integer cosine = sign * dot(radial, rims.rim1.e);
     const Integer sine = sign * dot(radial, rims.rim1.f);
     if (cosine == -norm_cubed) continue;
@@ -260,9 +259,7 @@ class RimRimDirection : public CriticalDirection {
 
  private:
   StationaryPair pair(const BallDifference& balls) {
-    const Ball t = t_.enclose(rims_);
-    const Ball scale = Ball(1) / (Ball(1) + square(t));
-    return {rims_, balls, (Ball(1) - square(t)) * scale, Ball(2) * t * scale};
+    return {rims_, balls, angle_of(AngleParameter::half_tangent, t_.enclose(rims_))};
   }
 
   RimPair rims_;

@@ -11,18 +11,11 @@
 namespace touchstone::oracle {
 namespace {
 
-/// Turns an angle by that many quarters.
-Angle<Interval> turned(const Angle<Interval>& a, unsigned quarters) {
-  switch (quarters) {
-    case 0:
-      return a;
-    case 1:
-      return {-a.sine, a.cosine};
-    case 2:
-      return {-a.cosine, -a.sine};
-    default:
-      return {a.sine, -a.cosine};
-  }
+/// The angle along a curve of which the parameter begins anew after so many quarter turns.
+Angle<Interval> angle_after(unsigned quarters, AngleParameter parameter, const Interval& t) {
+  const Angle<Interval> a = angle_of(parameter, t);
+  const auto [cosine, sine] = turned(a.cosine, a.sine, quarters);
+  return {cosine, sine};
 }
 
 int sign(const Interval& x) { return x.inf() > 0 ? 1 : x.sup() < 0 ? -1 : 0; }
@@ -44,7 +37,7 @@ class LineOfParameter {
 
  private:
   Angle<Interval> angle(const Interval& t) const {
-    return turned(angle_of(AngleParameter::tangent, t), turn_);
+    return angle_after(turn_, AngleParameter::tangent, t);
   }
   const LineSlope<Interval>& form(const Angle<Interval>& a) const {
     const Interval x = forms_[1].x(a);
@@ -67,7 +60,7 @@ class RimOfParameter {
 
  private:
   Angle<Interval> angle(const Interval& t) const {
-    return turned(angle_of(AngleParameter::half_tangent, t), 2 * turn_);
+    return angle_after(2 * turn_, AngleParameter::half_tangent, t);
   }
 
   const RimSlope<Interval>& slope_;
