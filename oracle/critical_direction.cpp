@@ -27,21 +27,21 @@ bool gap_is_zero(const Difference& difference, const IntegerVector& n) {
   return is_root_sum(a, squares[0], squares[1]);
 }
 
-/// Both ±n.
+/// n, and −n unless it is the single direction of a half-space.
 class RationalDirection : public CriticalDirection {
  public:
-  RationalDirection(IntegerVector n, std::optional<DirectionFamily> family)
-      : n_(std::move(n)), family_(std::move(family)) {}
+  RationalDirection(IntegerVector n, std::optional<DirectionFamily> family, bool is_single)
+      : n_(std::move(n)), family_(std::move(family)), is_single_(is_single) {}
 
   void enclose(const Difference&, const BallDifference& balls,
                std::vector<DirectionBound>& out) override {
     const BallVector n = to_balls(n_);
     const auto [centre_distance, half_width] = balls.along(n);
     out.push_back({centre_distance - half_width, n});
-    out.push_back({-centre_distance - half_width, -n});
+    if (!is_single_) out.push_back({-centre_distance - half_width, -n});
   }
   ZeroGap zero_gap(const Difference& difference) override {
-    const bool forth = dot(difference.d, n_) >= 0;
+    const bool forth = is_single_ || dot(difference.d, n_) >= 0;
     return gap_is_zero(difference, forth ? n_ : -n_) ? ZeroGap::zero : ZeroGap::unknown;
   }
   bool is_across(const IntegerVector& v) override { return dot(n_, v) == 0; }
@@ -50,24 +50,7 @@ class RationalDirection : public CriticalDirection {
  private:
   IntegerVector n_;
   std::optional<DirectionFamily> family_;
-};
-
-class PlaneDirection : public CriticalDirection {
- public:
-  explicit PlaneDirection(IntegerVector normal) : normal_(std::move(normal)) {}
-
-  void enclose(const Difference&, const BallDifference& balls,
-               std::vector<DirectionBound>& out) override {
-    const BallVector n = to_balls(normal_);
-    out.push_back({balls.gap(n), n});
-  }
-  ZeroGap zero_gap(const Difference& difference) override {
-    return gap_is_zero(difference, normal_) ? ZeroGap::zero : ZeroGap::unknown;
-  }
-  bool is_across(const IntegerVector& v) override { return dot(normal_, v) == 0; }
-
- private:
-  IntegerVector normal_;
+  bool is_single_;
 };
 
 }  // namespace
@@ -118,7 +101,7 @@ DirectionFamily sector(const IntegerVector& line, const std::vector<IntegerVecto
 
 std::unique_ptr<CriticalDirection> rational_direction(IntegerVector n,
                                                       std::optional<DirectionFamily> family) {
-  return std::make_unique<RationalDirection>(std::move(n), std::move(family));
+  return std::make_unique<RationalDirection>(std::move(n), std::move(family), false);
 }
 
 Side at_vertex(const BallDifference& balls, unsigned signs, const BallVector& n,
@@ -135,7 +118,7 @@ Side at_vertex(const BallDifference& balls, unsigned signs, const BallVector& n,
 }
 
 std::unique_ptr<CriticalDirection> plane_direction(const Difference& difference) {
-  return std::make_unique<PlaneDirection>(difference.plane_normal);
+  return std::make_unique<RationalDirection>(difference.plane_normal, std::nullopt, true);
 }
 
 }  // namespace touchstone::oracle
