@@ -2,9 +2,34 @@
 
 #include <algorithm>
 #include <cassert>
+#include <stdexcept>
 #include <utility>
 
 namespace touchstone::oracle {
+namespace {
+
+int sign(const Ball& x) { return x.is_positive() ? 1 : x.is_negative() ? -1 : 0; }
+
+Ball exact_ball(const Float& x) {
+  Ball result;
+  arb_set_arf(result.get(), x.get());
+  return result;
+}
+
+long length_in_bits(const mpq_class& x) { return bits_of(x.get_num()) + bits_of(x.get_den()); }
+
+class InBalls : public BallFunction {
+ public:
+  InBalls(const Polynomial& polynomial, const Polynomial& derivative)
+      : polynomial_(polynomial), derivative_(derivative) {}
+  Ball value(const Ball& t) const override { return value_at(polynomial_, t); }
+  Ball change(const Ball& t) const override { return value_at(derivative_, t); }
+
+ private:
+  const Polynomial &polynomial_, &derivative_;
+};
+
+}  // namespace
 
 Polynomial operator+(const Polynomial& a, const Polynomial& b) {
   Polynomial sum(std::max(a.size(), b.size()));
@@ -39,73 +64,116 @@ bool is_zero(const Polynomial& p) {
   return std::all_of(p.begin(), p.end(), [](const mpz_class& c) { return c == 0; });
 }
 
+Ball RootBracket::ball() const {
+  Ball result;
+  arb_set_interval_arf(result.get(), lo_.get(), hi_.get(), WorkingPrecision::bits());
+  return result;
+}
+
+bool RootBracket::is_narrow(long bits) const {
+  return arf_cmp_2exp_si((hi_ - lo_).get(), -bits) <= 0;
+}
+
+double RootBracket::width_bits() const { return -mag_get_d_log2_approx(arb_radref(ball().get())); }
+
+void RootBracket::narrow_here(const BallFunction& function, long wanted_bits) {
+  while (!is_narrow(wanted_bits) && (newton(function, wanted_bits) || trisect(function))) {
+  }
+}
+
+/// The function's change anywhere in the interval, whose width limits how well it can be known:
+/// more digits than that would be in vain.
+Ball RootBracket::change(const BallFunction& function) const {
+  constexpr long guard_bits = 16, min_bits = 64;
+  const long enough = std::max(min_bits, static_cast<long>(width_bits()) + guard_bits);
+  if (enough < WorkingPrecision::bits()) {
+    const WorkingPrecision precision(enough);
+    Ball result = function.change(ball());
+    if (!result.contains_zero()) return result;
+  }
+  return function.change(ball());
+}
+
+/// Interval Newton, once more with the same change if that is enough. False if it does not halve
+/// the interval.
+bool RootBracket::newton(const BallFunction& function, long wanted_bits) {
+  const Ball wide_change = change(function);
+  if (wide_change.contains_zero()) return false;
+  bool halved = false;
+  for (;;) {
+    const double before = width_bits();
+    if (!newton_step(function, wide_change)) return halved;
+    halved = true;
+    const double gain = width_bits() - before;
+    if (is_narrow(wanted_bits) || width_bits() + gain < static_cast<double>(wanted_bits + 1)) {
+      return true;
+    }
+  }
+}
+
+/// `change` holds for the interval or a wider one. False if the interval is not halved.
+bool RootBracket::newton_step(const BallFunction& function, const Ball& change) {
+  const Float half(0.5);
+  const Ball middle = exact_ball(half * (lo_ + hi_));
+  const Ball next = middle - function.value(middle) / change;
+  if (!next.is_finite()) return false;
+  const Float lo = std::max(lo_, next.lower_end()), hi = std::min(hi_, next.upper_end());
+  // Both contain the root.
+  if (hi < lo) throw std::logic_error("oracle: a root is lost");
+  const bool halved = !(half * (hi_ - lo_) < hi - lo);
+  if (halved) *this = {lo, hi, rising_};
+  return halved;
+}
+
+/// Cuts off what the function's signs at two points inside say: the root may be one of them, but
+/// not both. False if neither sign is certain at this precision.
+bool RootBracket::trisect(const BallFunction& function) {
+  const Float width = hi_ - lo_;
+  const Float points[] = {lo_ + Float(0.375) * width, lo_ + Float(0.625) * width};
+  const int sign_at_lo = rising_ ? -1 : 1;
+  bool moved = false;
+  for (const Float& at : points) {
+    const int here = sign(function.value(exact_ball(at)));
+    if (here == 0) continue;
+    moved = true;
+    // With the root below the lower point, the upper one only confirms it.
+    if (here == sign_at_lo) {
+      lo_ = at;
+    } else if (at < hi_) {
+      hi_ = at;
+    }
+  }
+  return moved;
+}
+
 RealRoot::RealRoot(Polynomial polynomial, mpq_class lo, mpq_class hi)
     : polynomial_(std::move(polynomial)),
       derivative_(derivative(polynomial_)),
       lo_(std::move(lo)),
-      hi_(std::move(hi)),
-      sign_at_lo_(0) {
+      hi_(std::move(hi)) {
   // An end of the interval may itself be the root.
   if (sign_at(polynomial_, lo_) == 0) hi_ = lo_;
   if (sign_at(polynomial_, hi_) == 0) lo_ = hi_;
-  sign_at_lo_ = sign_at(polynomial_, lo_);
-  assert(lo_ == hi_ || sign_at_lo_ * sign_at(polynomial_, hi_) < 0);
+  if (lo_ == hi_) return;
+  const bool rising = sign_at(polynomial_, lo_) < 0;
+  assert(sign_at(polynomial_, hi_) == (rising ? 1 : -1));
+  // So that the ends, if they are dyadic as all that isolation finds, are exact.
+  constexpr long guard_bits = 64;
+  const WorkingPrecision precision(guard_bits + length_in_bits(lo_) + length_in_bits(hi_));
+  bracket_.emplace(Ball(lo_).lower_end(), Ball(hi_).upper_end(), rising);
 }
 
 bool RealRoot::is(const mpq_class& number) const {
   return lo_ <= number && number <= hi_ && sign_at(polynomial_, number) == 0;
 }
 
-void RealRoot::bisect() {
-  const mpq_class middle = (lo_ + hi_) / 2;
-  const int sign = sign_at(polynomial_, middle);
-  if (sign == 0) {
-    lo_ = hi_ = middle;
-  } else if (sign == sign_at_lo_) {
-    lo_ = middle;
-  } else {
-    hi_ = middle;
-  }
-}
-
-bool RealRoot::newton_step(long bits) {
-  const WorkingPrecision precision(bits);
-  const mpq_class width = hi_ - lo_;
-  const Ball slope = value_at(derivative_, Ball(lo_, hi_));
-  if (slope.contains_zero()) return false;
-  const mpq_class middle = on_grid((lo_ + hi_) / 2, bits, false);
-  if (middle < lo_) return false;
-  const Ball next = Ball(middle) - value_at(polynomial_, Ball(middle)) / slope;
-  if (!next.is_finite()) return false;
-  const mpq_class lo = std::max(lo_, on_grid(next.lower(), bits, false));
-  const mpq_class hi = std::min(hi_, on_grid(next.upper(), bits, true));
-  // Both intervals contain the root, so they intersect.
-  assert(lo <= hi);
-  lo_ = lo;
-  hi_ = hi;
-  if (lo_ != hi_) {
-    if (sign_at(polynomial_, lo_) == 0) hi_ = lo_;
-    if (sign_at(polynomial_, hi_) == 0) lo_ = hi_;
-  }
-  return 2 * (hi_ - lo_) <= width;
-}
-
 Ball RealRoot::enclose() {
+  if (!bracket_) return Ball(lo_);
   const long bits = WorkingPrecision::bits();
-  const auto narrow_enough = [&] {
-    const mpq_class size = std::max(mpq_class(1), mpq_class(abs(lo_)));
-    return (hi_ - lo_) * mpq_class(mpz_class(1) << static_cast<mp_bitcnt_t>(bits)) <= size;
-  };
-  long newton_bits = bits + 32;
-  while (!narrow_enough()) {
-    if (!newton_step(newton_bits)) {
-      bisect();
-      newton_bits += 8;  // close roots cancel digits: try again with a few more
-    }
-  }
+  bracket_->narrow(bits, [&] { return InBalls(polynomial_, derivative_); });
   // Extra bits so that the ends are represented exactly enough.
   const WorkingPrecision precision(bits + 16);
-  return Ball(lo_, hi_);
+  return bracket_->ball();
 }
 
 bool RealRoot::is_root_of(const Polynomial& other) const {

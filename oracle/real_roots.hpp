@@ -1,6 +1,8 @@
 #pragma once
 
 #include <gmpxx.h>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "oracle/ball.hpp"
@@ -53,15 +55,62 @@ Polynomial operator*(const mpz_class& a, const Polynomial& b);
 bool is_zero(const Polynomial& p);
 Ball value_at(const Polynomial& p, const Ball& x);
 
+/// A function of one real number, at the working precision, and its slope.
+class BallFunction {
+ public:
+  virtual ~BallFunction() = default;
+  virtual Ball value(const Ball& t) const = 0;
+  virtual Ball change(const Ball& t) const = 0;
+};
+
+/// An interval with one root of a function and no other, at which the function's sign changes.
+class RootBracket {
+ public:
+  /// Bits of the working precision that rounding in the function may cost.
+  static constexpr long spare_bits = 32;
+
+  /// `rising`: the function is negative at `lo`.
+  RootBracket(Float lo, Float hi, bool rising)
+      : lo_(std::move(lo)), hi_(std::move(hi)), rising_(rising) {}
+
+  const Float& lo() const { return lo_; }
+  const Float& hi() const { return hi_; }
+  /// At the working precision.
+  Ball ball() const;
+
+  /// Narrows the interval to a width of at most 2^-bits: by interval Newton in ball arithmetic, and
+  /// by the function's signs where that stalls. `at_precision` makes the function at a working
+  /// precision, which begins with `spare_bits` more than wanted, and rises where that does not
+  /// suffice (close roots).
+  template <class AtPrecision>
+  void narrow(long bits, const AtPrecision& at_precision) {
+    for (long here = bits + spare_bits; !is_narrow(bits); here += spare_bits) {
+      const WorkingPrecision precision(here);
+      narrow_here(at_precision(), bits);
+    }
+  }
+
+ private:
+  bool is_narrow(long bits) const;
+  double width_bits()
+      const;  ///< roughly how narrow the interval is, which is_narrow decides exactly
+  void narrow_here(const BallFunction& function, long wanted_bits);
+  Ball change(const BallFunction& function) const;
+  bool newton(const BallFunction& function, long wanted_bits);
+  bool newton_step(const BallFunction& function, const Ball& change);
+  bool trisect(const BallFunction& function);
+
+  Float lo_, hi_;  // exact: a ball's radius is rounded, and could reach the next root
+  bool rising_;
+};
+
 /// One simple real root of a polynomial, the only one in its isolating interval.
 class RealRoot {
  public:
   /// Precondition: lo < hi and the polynomial changes sign between them, or lo == hi is the root.
   RealRoot(Polynomial polynomial, mpq_class lo, mpq_class hi);
 
-  /// A ball of width at most 2^-bits · max(1, |root|) that contains the root; `bits` is the working
-  /// precision. Narrows the isolating interval, also for later calls: by interval Newton in ball
-  /// arithmetic, and by exact bisection where that stalls (close roots).
+  /// A ball of width at most 2^-bits that contains the root; `bits` is the working precision.
   Ball enclose();
 
   /// Is the root exactly this number?
@@ -71,12 +120,9 @@ class RealRoot {
   bool is_root_of(const Polynomial& other) const;
 
  private:
-  bool newton_step(long bits);
-  void bisect();
-
   Polynomial polynomial_, derivative_;
   mpq_class lo_, hi_;
-  int sign_at_lo_;
+  std::optional<RootBracket> bracket_;  ///< absent if lo == hi
 };
 
 /// The distinct real roots in [lo, hi] of a polynomial that is not zero. Where Descartes' rule of

@@ -48,6 +48,20 @@ TEST(RealRoots, RootsOnlyTwoToTheMinus100ApartAreToldApart) {
   EXPECT_LT(roots[0].enclose().upper(), roots[1].enclose().lower());
 }
 
+TEST(RealRoots, ARootJustBeyondTheIntervalIsNotTakenForTheOneInIt) {
+  const mpz_class big = mpz_class(1) << 100U;  // both roots are 1/big from the end
+  const Polynomial p = Polynomial{mpz_class(1 - big), big} * Polynomial{mpz_class(-1 - big), big};
+  auto roots = real_roots(p, 0, 1);
+  ASSERT_EQ(roots.size(), 1u);
+  for (const long bits : {64, 80, 128, 256}) {
+    const WorkingPrecision precision(bits);
+    const Ball root = roots[0].enclose();
+    const mpq_class exact(big - 1, big);
+    EXPECT_LE(root.lower(), exact);
+    EXPECT_GE(root.upper(), exact);
+  }
+}
+
 TEST(RealRoots, EncloseAnIrrationalRootAsNarrowlyAsAsked) {
   auto roots = real_roots({-2, 0, 1}, 1, 2);
   ASSERT_EQ(roots.size(), 1u);

@@ -210,16 +210,9 @@ struct SlopeBracket {
   bool rising;  ///< negative at lo, positive at hi
 };
 
-/// A slope as a function of the curve's parameter, at the working precision.
-class SlopeInBalls {
- public:
-  virtual ~SlopeInBalls() = default;
-  virtual Ball value(const Ball& t) const = 0;
-  virtual Ball change(const Ball& t) const = 0;
-};
-
+/// A slope as a function of the curve's parameter.
 template <class Slope>
-class SlopeOfParameter : public SlopeInBalls {
+class SlopeOfParameter : public BallFunction {
  public:
   explicit SlopeOfParameter(Slope slope) : slope_(std::move(slope)) {}
   Ball value(const Ball& t) const override { return slope_.value(angle_of(Slope::parameter, t)); }
@@ -238,26 +231,22 @@ class SlopeOfParameter : public SlopeInBalls {
 ///   LineSlope<Ball> or RimSlope<Ball> slope(int branch) const;  // at the working precision
 class CurveRoot {
  public:
-  /// Bits of the working precision that rounding in the slope may cost.
-  static constexpr long spare_bits = 32;
-
   CurveRoot(RealRoot root) : exact_(std::move(root)) {}
-  explicit CurveRoot(const SlopeBracket& bracket);
+  explicit CurveRoot(const SlopeBracket& bracket)
+      : branch_(bracket.branch),
+        of_slope_(std::in_place, Float(bracket.lo), Float(bracket.hi), bracket.rising) {}
 
   /// The sign of κ; 0 for a root of the polynomial, which may belong to either branch.
-  int branch() const { return bracket_ ? bracket_->branch : 0; }
+  int branch() const { return branch_; }
 
-  /// A ball of width at most 2^(spare_bits − bits) · max(1, |root|) that contains the root; `bits`
-  /// is the working precision.
+  /// A ball of width at most 2^(RootBracket::spare_bits − bits) that contains the root; `bits` is
+  /// the working precision.
   template <class Curve>
   Ball enclose(const Curve& curve) {
-    if (!bracket_) return exact_->enclose();
-    const long wanted = WorkingPrecision::bits() - spare_bits;
-    for (long bits = WorkingPrecision::bits(); !is_narrow(wanted); bits += spare_bits) {
-      const WorkingPrecision precision(bits);
-      narrow(SlopeOfParameter(curve.slope(branch())), wanted);
-    }
-    return t_;
+    if (!of_slope_) return exact_->enclose();
+    of_slope_->narrow(WorkingPrecision::bits() - RootBracket::spare_bits,
+                      [&] { return SlopeOfParameter(curve.slope(branch_)); });
+    return of_slope_->ball();
   }
 
   /// Is the root exactly numerator / denominator?
@@ -287,18 +276,11 @@ class CurveRoot {
     }
   }
 
-  bool is_narrow(long bits) const;
-  double width_bits() const;  ///< of the radius, about: what is_narrow decides exactly
   bool may_be(const mpz_class& numerator, const mpz_class& denominator) const;
-  void narrow(const SlopeInBalls& slope, long wanted_bits);
-  Ball change(const SlopeInBalls& slope) const;
-  bool newton(const SlopeInBalls& slope, long wanted_bits);
-  bool newton_step(const SlopeInBalls& slope, const Ball& change);
-  bool trisect(const SlopeInBalls& slope);
   bool take_only_root(const Polynomial& polynomial);
 
-  std::optional<SlopeBracket> bracket_;
-  Ball t_;  ///< with a bracket: contains the root and no other
+  int branch_ = 0;
+  std::optional<RootBracket> of_slope_;
   std::optional<RealRoot> exact_;
 };
 

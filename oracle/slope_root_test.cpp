@@ -109,50 +109,48 @@ void expect_same_roots(const Difference& difference, const CriticalSite& curve, 
       << "segment " << curve.first << " signs " << curve.signs;
 }
 
+/// A curve at one vertex, with its slope on the branches 1 and −1.
+template <class Slope>
+struct Curve {
+  CriticalSite site;
+  Slope positive, negative;
+};
+
 Isolated expect_same_roots(const Configuration& configuration) {
   Isolated count;
   const Difference difference = make_difference(rounded_configuration(configuration).configuration);
   const auto segments = static_cast<unsigned>(difference.segments.size());
   if (segments < 2) return count;
-  const auto [lines, rims, headings] = [&] {
+  std::vector<Curve<LineSlope<Interval>>> lines;
+  std::vector<Curve<RimSlope<Interval>>> rims;
+  {
     const CGAL::Protect_FPU_rounding<true> rounding;
-    // The slopes of rims refer to the difference's intervals only while they are made.
     const IntervalDifference intervals(difference);
-    std::vector<std::pair<CriticalSite, std::vector<LineSlope<Interval>>>> of_lines;
-    std::vector<std::pair<CriticalSite, std::vector<RimSlope<Interval>>>> of_rims;
-    std::vector<double> of_frames;
     for (unsigned i = 0; i < segments; ++i) {
-      std::optional<unsigned> tilted;
       for (unsigned d = 0; d < difference.discs.size(); ++d) {
-        const auto& axis = difference.discs[d].frame.axis;
-        if (!is_zero(cross(axis, difference.segments[i].frame.axis))) tilted = d;
-      }
-      if (!tilted) continue;
-      const LineSearch line(intervals, difference, i, tilted);
-      of_frames.push_back(line.heading());
-      for (unsigned v = 0; v < 1U << (segments - 1); ++v) {
-        const unsigned below = v & ((1U << i) - 1);
-        CriticalSite site{Kind::rim_line, i, *tilted, below | (v & ~((1U << i) - 1)) << 1};
-        site.heading = line.heading();
-        of_lines.push_back({site, {line.slope(v, 1), line.slope(v, -1)}});
+        if (parallel(difference.discs[d].frame.axis, difference.segments[i].frame.axis)) continue;
+        const LineSearch line(intervals, difference, i, d);
+        for (unsigned v = 0; v < 1U << (segments - 1); ++v) {
+          const unsigned below = v & ((1U << i) - 1);
+          CriticalSite site{Kind::rim_line, i, d, below | (v & ~((1U << i) - 1)) << 1};
+          site.heading = line.heading();
+          lines.push_back({site, line.slope(v, 1), line.slope(v, -1)});
+        }
       }
     }
-    if (difference.discs.size() == 2) {
-      for (unsigned signs = 0; signs < 4; ++signs) {
-        const RimSearch search(intervals, signs);
-        of_rims.push_back({{Kind::rim_rim, 0, 1, signs}, {search.slope(1), search.slope(-1)}});
-      }
+    for (unsigned signs = 0; signs < 4 && difference.discs.size() == 2; ++signs) {
+      const RimSearch search(intervals, signs);
+      rims.push_back({{Kind::rim_rim, 0, 1, signs}, search.slope(1), search.slope(-1)});
     }
-    return std::tuple(of_lines, of_rims, of_frames);
-  }();
-  for (const auto& [site, slopes] : lines) {
-    expect_same_roots(
-        difference, site, 4, [&, &both = slopes](int b) { return both[b > 0 ? 0 : 1]; }, count);
   }
-  for (const auto& [site, slopes] : rims) {
-    expect_same_roots(
-        difference, site, 2, [&, &both = slopes](int b) { return both[b > 0 ? 0 : 1]; }, count);
-  }
+  const auto expect_of = [&](const auto& curves, unsigned turns) {
+    for (const auto& curve : curves) {
+      const auto slope = [&](int branch) { return branch > 0 ? curve.positive : curve.negative; };
+      expect_same_roots(difference, curve.site, turns, slope, count);
+    }
+  };
+  expect_of(lines, 4);
+  expect_of(rims, 2);
   return count;
 }
 
@@ -277,7 +275,7 @@ TEST(CurveRoot, EnclosesARootOfASlopeAsNarrowlyAsAsked) {
   const MadeUpCurve curve{{-1, 3}};
   CurveRoot root(SlopeBracket{-1, 1, 1, false});
   for (const long wanted : {64, 256, 1024}) {
-    const WorkingPrecision precision(wanted + CurveRoot::spare_bits);
+    const WorkingPrecision precision(wanted + RootBracket::spare_bits);
     const Ball t = root.enclose(curve);
     EXPECT_LE(t.lower(), mpq_class(1, 3));
     EXPECT_GE(t.upper(), mpq_class(1, 3));
