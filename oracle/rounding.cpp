@@ -40,26 +40,6 @@ class Grid {
 
 mpq_class change(double from, double to) { return abs(mpq_class(to) - mpq_class(from)); }
 
-/// Rounds a shape's sizes and adds their changes to `error`.
-struct RoundedShape {
-  const Grid& grid;
-  mpq_class& error;
-
-  double size(double x) const {
-    const double rounded = grid.nearest_size(x);
-    if (rounded != x) error += change(x, rounded);
-    return rounded;
-  }
-  Cylinder operator()(const Cylinder& s) const { return {size(s.radius()), size(s.half_length())}; }
-  Capsule operator()(const Capsule& s) const { return {size(s.radius()), size(s.half_length())}; }
-  Box operator()(const Box& s) const {
-    const Vec3& h = s.half_extents();
-    return Box(Vec3(size(h.x()), size(h.y()), size(h.z())));
-  }
-  Sphere operator()(const Sphere& s) const { return Sphere(size(s.radius())); }
-  Plane operator()(const Plane& s) const { return s; }
-};
-
 /// Upper bound of the distance from the centre of those points of a shape that a rotation moves.
 struct Reach {
   mpq_class operator()(const Cylinder& s) const {
@@ -97,9 +77,13 @@ RoundedConfiguration rounded_configuration(const Configuration& c, int bits) {
   if (std::holds_alternative<Plane>(c.b) || std::holds_alternative<Sphere>(c.b)) return {c, 0};
   mpq_class error = 0;
   const Grid lengths(larger_size(c), bits);
-  const RoundedShape round_shape{lengths, error};
+  const Resized round_shape{[&](double size) {
+    const double rounded = lengths.nearest_size(size);
+    if (rounded != size) error += change(size, rounded);
+    return rounded;
+  }};
   const Cylinder a = round_shape(c.a);
-  const Shape b = std::visit([&](const auto& s) -> Shape { return round_shape(s); }, c.b);
+  const Shape b = round_shape(c.b);
 
   const Vec3 &from_a = c.pose_a.position(), &from_b = c.pose_b.position();
   const Vec3 to_a = lengths.nearest(from_a), to_b = lengths.nearest(from_b);

@@ -33,6 +33,24 @@ inline constexpr int kept_bits = 192;
 RoundedConfiguration rounded_configuration(const Configuration& configuration,
                                            int bits = kept_bits);
 
+/// The same shape with other sizes, each of them a function of the size; a plane has none.
+template <class Size>
+struct Resized {
+  Size size;
+
+  Cylinder operator()(const Cylinder& s) const { return {size(s.radius()), size(s.half_length())}; }
+  Capsule operator()(const Capsule& s) const { return {size(s.radius()), size(s.half_length())}; }
+  Sphere operator()(const Sphere& s) const { return Sphere(size(s.radius())); }
+  Box operator()(const Box& s) const {
+    const Vec3& h = s.half_extents();
+    return Box(Vec3(size(h.x()), size(h.y()), size(h.z())));
+  }
+  Plane operator()(const Plane& s) const { return s; }
+  Shape operator()(const Shape& shape) const {
+    return std::visit([this](const auto& s) -> Shape { return (*this)(s); }, shape);
+  }
+};
+
 /// Moves bodies that are farther apart than 2^bits times their sizes closer together, in the same
 /// direction: coordinates of a thousand bits would give roots that lie 2^-1000 apart.
 ///

@@ -166,7 +166,7 @@ bool points_are_right(const SupportFeatures& features, const Vec3& n, double tol
 // Squares of lengths near either end of the doubles overflow or vanish. They are brought into range
 // by a power of two, which rounds nothing, and the patch back.
 
-/// Of the largest length, if it is out of range; otherwise 0.
+/// The exponent of the largest length where squares would leave the range; otherwise 0.
 int exponent_out_of_range(const Configuration& c) {
   const auto* const plane = std::get_if<Plane>(&c.b);
   const double largest = std::max({larger_size(c), c.pose_a.position().cwiseAbs().maxCoeff(),
@@ -177,34 +177,19 @@ int exponent_out_of_range(const Configuration& c) {
   return std::abs(exponent) <= in_range ? 0 : exponent;
 }
 
-struct ScaledShape {
-  int exponent;
-
-  double length(double x) const { return std::scalbn(x, exponent); }
-  /// What vanishes against the largest length has the least size that there is.
-  double size(double x) const { return std::max(length(x), std::numeric_limits<double>::min()); }
-  Cylinder operator()(const Cylinder& s) const { return {size(s.radius()), size(s.half_length())}; }
-  Shape operator()(const Capsule& s) const {
-    return Capsule(size(s.radius()), size(s.half_length()));
-  }
-  Shape operator()(const Sphere& s) const { return Sphere(size(s.radius())); }
-  Shape operator()(const Plane& s) const {
-    return Plane(s.unit_normal(), length(s.unit_displacement()));
-  }
-  Shape operator()(const Box& s) const {
-    const Vec3& e = s.half_extents();
-    return Box(Vec3(size(e.x()), size(e.y()), size(e.z())));
-  }
-  Pose operator()(const Pose& pose) const {
-    const Vec3& p = pose.position();
-    return {Vec3(length(p.x()), length(p.y()), length(p.z())), pose.orientation()};
-  }
-};
-
+/// Times a power of two.
 Configuration scaled(const Configuration& c, int exponent) {
-  const ScaledShape times{exponent};
-  return {times(c.a), times(c.pose_a),
-          std::visit([&](const auto& s) { return Shape(times(s)); }, c.b), times(c.pose_b)};
+  const auto length = [&](double x) { return std::scalbn(x, exponent); };
+  // What vanishes against the largest length has the least size that there is.
+  const Resized with_sizes{
+      [&](double x) { return std::max(length(x), std::numeric_limits<double>::min()); }};
+  const auto moved = [&](const Pose& pose) {
+    return Pose(pose.position().unaryExpr(length), pose.orientation());
+  };
+  const auto* const plane = std::get_if<Plane>(&c.b);
+  return {with_sizes(c.a), moved(c.pose_a),
+          plane ? Plane(plane->unit_normal(), length(plane->unit_displacement())) : with_sizes(c.b),
+          moved(c.pose_b)};
 }
 
 }  // namespace
