@@ -29,38 +29,47 @@ ConvexSet whole_disc(const Vec2& centre, double radius) {
   return ConvexSet::region({BoundaryPiece::arc(centre, radius, 0, 2 * pi)});
 }
 
-/// The part of a rectangle's edge within a disc, of positive length. Coordinates have the origin in
-/// the middle of the edge, x along it (counterclockwise), and the rectangle's outside at y < 0.
+/// The part of an edge within a disc, of positive length. The edge is |x| <= half_edge of the x
+/// axis.
 struct Chord {
-  int edge;
   bool from_corner, to_corner;  ///< it ends at the edge's end, not at the circle
-  double from, to;              ///< along the edge, from its middle
+  double from, to;
+};
+
+/// The circle intersects the edge's line at along ± √half_chord2.
+std::optional<Chord> chord(const mpq_class& along, const mpq_class& half_chord2,
+                           const mpq_class& half_edge) {
+  if (half_chord2 <= 0) return std::nullopt;
+  const mpq_class before = along + half_edge, after = half_edge - along;
+  if (sign_of_minus_root(-before, half_chord2) >= 0) return std::nullopt;
+  if (sign_of_minus_root(-after, half_chord2) >= 0) return std::nullopt;
+  const bool from_corner = sign_of_minus_root(before, half_chord2) <= 0;
+  const bool to_corner = sign_of_minus_root(after, half_chord2) <= 0;
+  const double half_chord = root(half_chord2), middle = along.get_d(), end = half_edge.get_d();
+  return Chord{from_corner, to_corner, from_corner ? -end : middle - half_chord,
+               to_corner ? end : middle + half_chord};
+}
+
+/// A chord of a rectangle's edge, whose coordinates have the origin in the middle of the edge, x
+/// along it (counterclockwise), and the rectangle's outside at y < 0.
+struct EdgeChord : Chord {
+  int edge;
   double start_angle,
       end_angle;  ///< polar angles of the ends about the disc's centre, in the rectangle's frame
 };
 
 /// `along` and `inside` are the disc's centre in the edge's coordinates.
-std::optional<Chord> chord(int edge, const mpq_class& along, const mpq_class& inside,
-                           const mpq_class& radius, const mpq_class& half_edge) {
+std::optional<EdgeChord> edge_chord(int edge, const mpq_class& along, const mpq_class& inside,
+                                    const mpq_class& radius, const mpq_class& half_edge) {
   const mpq_class half_chord2 = square(radius) - square(inside);
-  if (half_chord2 <= 0) return std::nullopt;
-  const mpq_class before = along + half_edge, after = half_edge - along;
-  // The circle intersects the edge's line at along ± half chord.
-  if (sign_of_minus_root(-before, half_chord2) >= 0) return std::nullopt;
-  if (sign_of_minus_root(-after, half_chord2) >= 0) return std::nullopt;
-  Chord c;
-  c.edge = edge;
-  c.from_corner = sign_of_minus_root(before, half_chord2) <= 0;
-  c.to_corner = sign_of_minus_root(after, half_chord2) <= 0;
-  const double half_chord = root(half_chord2), middle = along.get_d(), y = -inside.get_d();
-  const double back = c.from_corner ? before.get_d() : half_chord;
-  const double forth = c.to_corner ? after.get_d() : half_chord;
-  c.from = c.from_corner ? -half_edge.get_d() : middle - half_chord;
-  c.to = c.to_corner ? half_edge.get_d() : middle + half_chord;
+  const auto c = chord(along, half_chord2, half_edge);
+  if (!c) return std::nullopt;
+  const double half_chord = root(half_chord2), y = -inside.get_d();
+  const double back = c->from_corner ? mpq_class(along + half_edge).get_d() : half_chord;
+  const double forth = c->to_corner ? mpq_class(half_edge - along).get_d() : half_chord;
   // Edge 0 runs along +x below the rectangle; each next edge is turned by 90°.
-  c.start_angle = std::atan2(y, -back) + edge * pi / 2;
-  c.end_angle = std::atan2(y, forth) + edge * pi / 2;
-  return c;
+  return EdgeChord{*c, edge, std::atan2(y, -back) + edge * pi / 2,
+                   std::atan2(y, forth) + edge * pi / 2};
 }
 
 }  // namespace
@@ -89,14 +98,14 @@ ConvexSet overlap_of_discs(const mpq_class& r, const mpq_class& s, const mpq_cla
 
 ConvexSet overlap_of_disc_and_rectangle(const mpq_class& x, const mpq_class& y, const mpq_class& r,
                                         const mpq_class& a, const mpq_class& b) {
-  std::vector<Chord> chords;
-  const auto add = [&](const std::optional<Chord>& c) {
+  std::vector<EdgeChord> chords;
+  const auto add = [&](const std::optional<EdgeChord>& c) {
     if (c) chords.push_back(*c);
   };
-  add(chord(0, x, y + b, r, a));
-  add(chord(1, y, a - x, r, b));
-  add(chord(2, -x, b - y, r, a));
-  add(chord(3, -y, x + a, r, b));
+  add(edge_chord(0, x, y + b, r, a));
+  add(edge_chord(1, y, a - x, r, b));
+  add(edge_chord(2, -x, b - y, r, a));
+  add(edge_chord(3, -y, x + a, r, b));
   const Vec2 centre(x.get_d(), y.get_d());
   const double radius = r.get_d(), width = a.get_d(), height = b.get_d();
   if (chords.empty()) {
@@ -117,8 +126,8 @@ ConvexSet overlap_of_disc_and_rectangle(const mpq_class& x, const mpq_class& y, 
   };
   std::vector<BoundaryPiece> sides;
   for (std::size_t i = 0; i < chords.size(); ++i) {
-    const Chord& c = chords[i];
-    const Chord& next = chords[(i + 1) % chords.size()];
+    const EdgeChord& c = chords[i];
+    const EdgeChord& next = chords[(i + 1) % chords.size()];
     sides.push_back(BoundaryPiece::line(in_frame(c.edge, c.from), in_frame(c.edge, c.to)));
     const bool share_a_corner = c.to_corner && next.from_corner && next.edge == (c.edge + 1) % 4;
     if (share_a_corner) continue;
@@ -137,16 +146,9 @@ ConvexSet overlap_of_disc_and_rectangle(const mpq_class& x, const mpq_class& y, 
 
 ConvexSet overlap_of_disc_and_segment(const mpq_class& along, const mpq_class& off2,
                                       const mpq_class& r, const mpq_class& half_length) {
-  const mpq_class half_chord2 = square(r) - off2;
-  const mpq_class before = along + half_length, after = half_length - along;
-  const bool misses = half_chord2 <= 0 || sign_of_minus_root(-before, half_chord2) >= 0 ||
-                      sign_of_minus_root(-after, half_chord2) >= 0;
-  if (misses) return ConvexSet::point({clamped(along, half_length).get_d(), 0});
-  const double half_chord = root(half_chord2), middle = along.get_d(), end = half_length.get_d();
-  const bool from_end = sign_of_minus_root(before, half_chord2) <= 0;
-  const bool to_end = sign_of_minus_root(after, half_chord2) <= 0;
-  return ConvexSet::segment({from_end ? -end : middle - half_chord, 0},
-                            {to_end ? end : middle + half_chord, 0});
+  const auto c = chord(along, square(r) - off2, half_length);
+  if (!c) return ConvexSet::point({clamped(along, half_length).get_d(), 0});
+  return ConvexSet::segment({c->from, 0}, {c->to, 0});
 }
 
 ConvexSet overlap_of_segment_and_rectangle(const mpq_class& x, const mpq_class& y,
