@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 #include <fstream>
 #include <iterator>
-#include <numeric>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -21,78 +20,6 @@
 namespace touchstone {
 
 using std::filesystem::path;
-
-namespace {
-
-struct Rectangle {
-  double left, bottom, right, top;
-  bool meets(const Rectangle& o) const {
-    return left < o.right && o.left < right && bottom < o.top && o.bottom < top;
-  }
-  /// Clips the segment to the rectangle (Liang and Barsky, ACM Transactions on Graphics 3, 1984).
-  bool meets(const Segment& s) const {
-    const double dx = s.x2 - s.x1, dy = s.y2 - s.y1;
-    double from = 0, to = 1;
-    for (const auto& [along, room] : {std::pair{-dx, s.x1 - left},
-                                      {dx, right - s.x1},
-                                      {-dy, s.y1 - bottom},
-                                      {dy, top - s.y1}}) {
-      if (along == 0 && room < 0) return false;
-      if (along < 0) from = std::max(from, room / along);
-      if (along > 0) to = std::min(to, room / along);
-    }
-    return from < to;
-  }
-};
-
-/// From the seventh on they are clear of marks at the same height, but stand apart from their own:
-/// for important labels alone.
-constexpr LabelPlace choices[] = {{true, 1, 0},      {false, -1, 0},     {true, 0.6, 0.8},
-                                  {true, 0.6, -0.8}, {false, -0.6, 0.8}, {false, -0.6, -0.8},
-                                  {true, 0.2, 1.1},  {false, -0.2, 1.1}, {true, 0.2, 2.1},
-                                  {false, -0.2, 2.1}};
-constexpr std::size_t choices_beside = 6;
-
-Rectangle text_at(const Label& l, const LabelPlace& p) {
-  const double end = l.x + p.dx, other = end + (p.rightwards ? l.length : -l.length);
-  return {std::min(end, other), l.y + p.dy - 0.5, std::max(end, other), l.y + p.dy + 0.5};
-}
-
-}  // namespace
-
-std::vector<std::optional<LabelPlace>> label_places(const std::vector<Label>& labels, double width,
-                                                    double height,
-                                                    const std::vector<Segment>& lines) {
-  const Rectangle chart{0, 0, width, height + 0.5};  // half a line below the title
-  std::vector<Rectangle> taken;
-  for (const Label& l : labels) taken.push_back({l.x - 0.7, l.y - 0.35, l.x + 0.7, l.y + 0.35});
-  std::vector<std::size_t> order(labels.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::stable_partition(order.begin(), order.end(),
-                        [&](std::size_t i) { return labels[i].important; });
-  std::vector<std::optional<LabelPlace>> result(labels.size());
-  for (const std::size_t i : order) {
-    // How bad a place is: what it lies on, and what of it is cut off.
-    const auto badness = [&](const LabelPlace& p) {
-      const Rectangle text = text_at(labels[i], p);
-      const auto hits = std::count_if(taken.begin(), taken.end(),
-                                      [&](const Rectangle& r) { return r.meets(text); });
-      const auto crossed = std::count_if(lines.begin(), lines.end(),
-                                         [&](const Segment& s) { return text.meets(s); });
-      const bool cut = text.left < chart.left || text.right > chart.right ||
-                       text.bottom < chart.bottom || text.top > chart.top;
-      return hits + 10 * crossed + (cut ? 100 : 0);
-    };
-    const LabelPlace* best = std::min_element(
-        std::begin(choices),
-        labels[i].important ? std::end(choices) : std::begin(choices) + choices_beside,
-        [&](const LabelPlace& a, const LabelPlace& b) { return badness(a) < badness(b); });
-    if (badness(*best) > 0 && !labels[i].important) continue;
-    result[i] = *best;
-    taken.push_back(text_at(labels[i], *best));
-  }
-  return result;
-}
 
 std::map<std::string, std::string> figure_styles(const std::vector<std::string>& candidates) {
   constexpr const char* colours[] = {
@@ -203,6 +130,12 @@ struct Point {
   bool front = false;
 };
 
+constexpr const char* columns_of_csv = "candidate,nanoseconds,depth_error_p99,agreement,on_front\n";
+std::string csv_row(const Point& p) {
+  return fmt::format("{},{},{},{},{}\n", csv_cell(p.candidate), p.time, p.error, p.agreement,
+                     p.front ? 1 : 0);
+}
+
 /// Timed candidates with contacts.
 std::vector<Point> points_of(const Report& report, const std::string& group,
                              const std::string& pair) {
@@ -231,18 +164,15 @@ Range decades(const std::vector<double>& values) {
 constexpr const char* front_style =
     "with lines title 'Pareto front' dashtype 2 linecolor '#5a6472'";
 
-/// The panel's commands; `width` and `height` are of its axes, in characters of its labels.
 std::string speed_panel(const std::string& title, const std::vector<Point>& points,
-                        const Styles& styles, const Range& x, const Range& y, double width,
-                        double height) {
+                        const Styles& styles, const Range& x, const Range& y) {
   std::string text = fmt::format(
       "set title {} noenhanced\nset logscale xy\nset xrange [0.999e{}:1.001e{}]\nset yrange "
       "[1e{}:1e{}]\n"
       "set grid xtics ytics linecolor '#d9dee5'\nset border 3\nset tics nomirror\n"
       "set xtics ('10 ns' 10, '100 ns' 100, '1 µs' 1e3, '10 µs' 1e4, '100 µs' 1e5, '1 ms' 1e6)\n"
       "set ytics ({})\nset xlabel 'time per query'\n"
-      "set ylabel 'depth error, p99 (relative to size)'\nunset label\nunset mxtics\nunset "
-      "mytics\nset style textbox opaque noborder fillcolor '#ffffff' margins 0.3,0.1\n",
+      "set ylabel 'depth error, p99 (relative to size)'\nunset mxtics\nunset mytics\n",
       gnuplot_quoted(title), x.low, x.high, y.low, y.high,
       power_tics(y.low, y.high, std::max(1, static_cast<int>(std::ceil((y.high - y.low) / 6)))));
   std::vector<Point> front;
@@ -251,34 +181,12 @@ std::string speed_panel(const std::string& title, const std::vector<Point>& poin
   }
   std::sort(front.begin(), front.end(),
             [](const Point& a, const Point& b) { return a.time < b.time; });
-  const auto across = [&](const Point& p) {
-    return (std::log10(p.time) - x.low) / (x.high - x.low) * width;
-  };
-  const auto up = [&](const Point& p) {
-    return (std::log10(p.error) - y.low) / (y.high - y.low) * height;
-  };
-  std::vector<Label> labels;
+  text += fmt::format("plot '-' {}", front_style);
   for (const Point& p : points) {
-    labels.push_back({across(p), up(p), static_cast<double>(p.label.size()), p.front});
+    text += fmt::format(", '-' with points title {} pointsize 1 {}", gnuplot_quoted(p.label),
+                        styles.at(p.candidate));
   }
-  std::vector<Segment> lines;
-  for (std::size_t i = 1; i < front.size(); ++i) {
-    lines.push_back({across(front[i - 1]), up(front[i - 1]), across(front[i]), up(front[i])});
-  }
-  const auto places = label_places(labels, width, height, lines);
-  std::string marks;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Point& p = points[i];
-    marks += fmt::format("{}'-' with points title {} pointsize 1 {}",
-                         i ? ", " : fmt::format("plot '-' {}, ", front_style),
-                         gnuplot_quoted(p.label), styles.at(p.candidate));
-    if (!places[i]) continue;
-    text += fmt::format(
-        "set label {} at {:.6g},{:.6g} {} offset character {:.2f},{:.2f} front boxed{}\n",
-        gnuplot_quoted(p.label), p.time, p.error, places[i]->rightwards ? "left" : "right",
-        places[i]->dx, places[i]->dy, p.front ? "" : " textcolor '#5a6472'");
-  }
-  text += marks + '\n';
+  text += '\n';
   for (const Point& p : front) text += fmt::format("{:.6g} {:.6g}\n", p.time, p.error);
   text += "e\n";
   for (const Point& p : points) text += fmt::format("{:.6g} {:.6g}\ne\n", p.time, p.error);
@@ -289,7 +197,7 @@ std::string speed_panel(const std::string& title, const std::vector<Point>& poin
 std::string key_panel(const std::vector<std::pair<std::string, std::string>>& labels,
                       const Styles& styles, double share) {
   std::string text = fmt::format(
-      "set size 1,{}\nset origin 0,0\nunset title\nunset label\nunset border\nunset tics\n"
+      "set size 1,{}\nset origin 0,0\nunset title\nunset border\nunset tics\n"
       "unset xlabel\nunset ylabel\nunset grid\nset key center center horizontal Left reverse "
       "samplen 1 width 1 font ',9'\n",
       share);
@@ -308,22 +216,19 @@ std::string speed_figures(const Report& report, const Styles& styles, const std:
                           const std::filesystem::path& folder) {
   std::vector<double> times, errors;
   std::vector<std::string> drawn;
-  std::string all_data = "pair,candidate,nanoseconds,depth_error_p99,agreement,on_front\n";
+  std::string all_data = std::string("pair,") + columns_of_csv;
   for (const auto& pair : pairs) {
     const auto points = points_of(report, group, pair);
     if (!points.empty()) drawn.push_back(pair);
     for (const Point& p : points) {
       times.push_back(p.time);
       errors.push_back(p.error);
-      all_data += fmt::format("{},{},{},{},{},{}\n", pair, csv_cell(p.candidate), p.time, p.error,
-                              p.agreement, p.front ? 1 : 0);
+      all_data += pair + ',' + csv_row(p);
     }
   }
   if (drawn.empty()) return "";
   write_file(folder / (figure_name("speed-accuracy", group) + ".csv"), all_data, "--figures");
-  const Range x = decades(times);
-  Range y = decades(errors);
-  y.low -= 1;  // room for labels above the axis
+  const Range x = decades(times), y = decades(errors);
   std::string script, panels;
   // Two columns of panels above a key of all marks.
   const int columns = drawn.size() > 1 ? 2 : 1;
@@ -340,17 +245,14 @@ std::string speed_figures(const Report& report, const Styles& styles, const std:
     const std::string title = figure_title(pair, group);
     const std::string name = figure_name("speed-accuracy-" + pair, group);
     const auto points = points_of(report, group, pair);
-    script += in_both_forms(name, 860, 440, key + speed_panel(title, points, styles, x, y, 64, 18));
+    script += in_both_forms(name, 860, 440, key + speed_panel(title, points, styles, x, y));
     const int row = panel / columns;
     panels += fmt::format("set size {},{}\nset origin {},{}\n", 1.0 / columns, (1 - share) / rows,
                           1.0 / columns * (panel % columns), 1 - (1 - share) / rows * (row + 1)) +
-              "set key off\n" + speed_panel(title, points, styles, x, y, 50, 13);
+              "set key off\n" + speed_panel(title, points, styles, x, y);
     ++panel;
-    std::string data = "candidate,nanoseconds,depth_error_p99,agreement,on_front\n";
-    for (const Point& p : points) {
-      data += fmt::format("{},{},{},{},{}\n", csv_cell(p.candidate), p.time, p.error, p.agreement,
-                          p.front ? 1 : 0);
-    }
+    std::string data = columns_of_csv;
+    for (const Point& p : points) data += csv_row(p);
     write_file(folder / (name + ".csv"), data, "--figures");
   }
   return script + in_both_forms(figure_name("speed-accuracy", group), 1080, 340 * rows + key_height,
