@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <functional>
 #include <memory>
 #include <vector>
+
+#include <nlohmann/json.hpp>
 
 #include "cli/command.hpp"
 #include "cli/options.hpp"
@@ -18,6 +21,8 @@
 namespace touchstone {
 namespace {
 
+using nlohmann::json;
+
 constexpr int not_served = 1;
 
 struct ChooseArguments {
@@ -28,7 +33,7 @@ struct ChooseArguments {
   RobotOption robot;
   std::string scene, engine, out = "out";
   bool json = false;
-  std::uint64_t disturbances = Trials().disturbances, seed = Trials().seed;
+  Trials trials;
   PairNeeds pairs;
   std::vector<Option> of_motions, of_samples;  // that say nothing of the other
 
@@ -45,6 +50,10 @@ struct ChooseArguments {
     return program_name() + " choose " + shell_quoted(scene) +
            candidates.command_line(contestants()) + robot.command_line();
   }
+  /// The part of it that says how runs are repeated.
+  std::string of_trials() const {
+    return fmt::format(" --disturbances {} --seed {}", trials.disturbances, trials.seed);
+  }
 };
 
 /// The scene, with needs from its runs with exact contacts if it is a robot's, in the engine's
@@ -56,7 +65,7 @@ SceneFile scene_of(ChooseArguments& options) {
     describe_engine(options.engine);  // which has to be there
     check_engine_scene(options.engine, file.scene);
   }
-  const Trials trials{options.disturbances, options.seed};
+  const Trials trials = options.trials;
   const unsigned workers = options.workers.get();
   const ExactMotion exact =
       options.engine.empty()
@@ -71,53 +80,61 @@ SceneFile scene_of(ChooseArguments& options) {
   return file;
 }
 
+/// Prints the choice and writes choose.json, with a page of what `motion` gives, if anything. That
+/// may write more.
+void deliver(const ChooseArguments& options, const json& choice, const std::string& text,
+             const std::function<json()>& motion) {
+  // The names of files and folders may be of any bytes; JSON is UTF-8.
+  const auto dumped = [&](int indent) {
+    return choice.dump(indent, ' ', false, json::error_handler_t::replace) + '\n';
+  };
+  bool has_page = false;
+  const auto write = [&] {
+    const json shown = motion();
+    has_page = !shown.is_null();
+    remove_older(options.out, "choose.", "html");
+    write_file(options.out + "/choose.json", dumped(1), "--out");
+    if (has_page) write_file(options.out + "/choose.html", choice_page(choice, shown), "--out");
+  };
+  write_then_print(write, options.json ? dumped(-1) : text);
+  if (options.json) return;
+  print(
+      fmt::format("\n{1}{0}/choose.json\n", options.out,
+                  has_page ? fmt::format("Page: {}/choose.html; data: ", options.out) : "Data: "));
+}
+
 int choose_scene(ChooseArguments& options) {
   const SceneFile file = scene_of(options);
-  const std::string command =
-      options.command_line() +
-      fmt::format(" --disturbances {} --seed {}", options.disturbances, options.seed);
+  const std::string command = options.command_line() + options.of_trials(),
+                    folder = options.folder();
   const Limits limits = options.candidates.limits();
-  Choice choice = choose(
-      file,
-      {options.contestants(), options.workers.get(), limits, {options.disturbances, options.seed}});
+  Choice choice =
+      choose(file, {options.contestants(), options.workers.get(), limits, options.trials});
   choice.arguments = shell_quoted(options.scene) + options.robot.command_line();
-  const std::string folder = options.folder();
-  const auto write = [&] {
-    write_evidence(choice, folder);
-    write_file(options.out + "/choose.json", choice_json(choice, command, folder, 1) + '\n',
-               "--out");
-    write_file(options.out + "/choose.html", choice_page(choice, command, folder, limits), "--out");
-  };
-  write_then_print(write, options.json ? choice_json(choice, command, folder) + '\n'
-                                       : choice_text(choice, folder, standard_output().columns));
-  if (!options.json)
-    print(fmt::format("\nPage: {0}/choose.html; data: {0}/choose.json\n", options.out));
+  deliver(options, choice_json(choice, command, folder),
+          choice_text(choice, folder, standard_output().columns), [&] {
+            write_evidence(choice, folder);
+            return choice_motion(choice, limits);
+          });
   return choice.impossible ? not_served : 0;
 }
 
 int choose_for_engine(ChooseArguments& options) {
   const SceneFile file = scene_of(options);
   const std::string command =
-      fmt::format("{} choose {}{} --engine {} --disturbances {} --seed {}", program_name(),
-                  shell_quoted(options.scene), options.robot.command_line(), options.engine,
-                  options.disturbances, options.seed);
-  const EngineChoice choice = choose_in_engine(
-      file, options.engine, {options.workers.get(), {options.disturbances, options.seed}});
-  const auto write = [&] {
-    write_file(options.out + "/choose.json", engine_choice_json(choice, command, 1) + '\n',
-               "--out");
-    write_file(options.out + "/choose.html", choice_page(choice, command), "--out");
-  };
-  write_then_print(write, options.json ? engine_choice_json(choice, command) + '\n'
-                                       : engine_choice_text(choice, standard_output().columns));
-  if (!options.json)
-    print(fmt::format("\nPage: {0}/choose.html; data: {0}/choose.json\n", options.out));
+      fmt::format("{} choose {}{} --engine {}{}", program_name(), shell_quoted(options.scene),
+                  options.robot.command_line(), options.engine, options.of_trials());
+  const EngineChoice choice =
+      choose_in_engine(file, options.engine, {options.workers.get(), options.trials});
+  deliver(options, engine_choice_json(choice, command),
+          engine_choice_text(choice, standard_output().columns),
+          [&] { return choice_motion(choice); });
   return choice.answer ? 0 : not_served;
 }
 
 int choose_pairs(const ChooseArguments& options) {
   PairNeeds needs = options.pairs;
-  needs.seed = options.seed;
+  needs.seed = options.trials.seed;
   const std::string command =
       options.command_line() + fmt::format(" --depth {} --angle {} --count {} --seed {}",
                                            needs.depth, needs.angle, needs.count, needs.seed);
@@ -125,15 +142,11 @@ int choose_pairs(const ChooseArguments& options) {
   const PairsChoice choice =
       choose_for_pairs(file, needs, options.contestants(), options.candidates.limits());
   const std::string folder = options.folder();
-  const auto write = [&] {
-    remove_older(options.out, "choose.", "html");
-    write_evidence(choice, folder);
-    write_file(options.out + "/choose.json", pairs_json(choice, command, folder, 1) + '\n',
-               "--out");
-  };
-  write_then_print(write, options.json ? pairs_json(choice, command, folder) + '\n'
-                                       : pairs_text(choice, folder, standard_output().columns));
-  if (!options.json) print(fmt::format("\nData: {}/choose.json\n", options.out));
+  deliver(options, pairs_json(choice, command, folder),
+          pairs_text(choice, folder, standard_output().columns), [&] {
+            write_evidence(choice, folder);
+            return json();
+          });
   return choice.all_served() ? 0 : not_served;
 }
 
@@ -162,9 +175,10 @@ void add_choose(Program& program) {
       .required();
   command.text("--out", options->out, "Folder for choose.json and choose.html").value("FOLDER");
   command.flag("--json", options->json, "Print choose.json instead of text");
-  command.count("--seed", options->seed, all_counts, "Same seed, same disturbances or poses");
+  command.count("--seed", options->trials.seed, all_counts,
+                "Same seed, same disturbances or poses");
   options->of_motions = {
-      command.count("--disturbances", options->disturbances, {0, 1000},
+      command.count("--disturbances", options->trials.disturbances, {0, 1000},
                     "Runs of a scene beside the one as it is written; needs must hold in all"),
       command
           .text("--engine", options->engine,

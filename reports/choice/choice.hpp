@@ -103,19 +103,19 @@ inline constexpr std::size_t columns_of_tables = 80;
 /// What choose.json says of a scene.
 nlohmann::json scene_json(const SceneFile& file, const Trials& trials, const Spreads& spreads);
 
-/// choose.json (docs/scenes.md); on one line, or indented.
-std::string choice_json(const Choice& choice, const std::string& command, const std::string& folder,
-                        int indent = -1);
-std::string pairs_json(const PairsChoice& choice, const std::string& command,
-                       const std::string& folder, int indent = -1);
+/// choose.json (docs/scenes.md).
+nlohmann::json choice_json(const Choice& choice, const std::string& command,
+                           const std::string& folder);
+nlohmann::json pairs_json(const PairsChoice& choice, const std::string& command,
+                          const std::string& folder);
+nlohmann::json engine_choice_json(const EngineChoice& choice, const std::string& command);
 
-std::string engine_choice_json(const EngineChoice& choice, const std::string& command,
-                               int indent = -1);
+/// Runs the scene again with exact contacts and with others, for a page to show them in motion.
+nlohmann::json choice_motion(const Choice& choice, const Limits& limits);
+nlohmann::json choice_motion(const EngineChoice& choice);
 
-/// One self-contained page with the exact run and others in motion; runs the scene again for them.
-std::string choice_page(const Choice& choice, const std::string& command, const std::string& folder,
-                        const Limits& limits);
-std::string choice_page(const EngineChoice& choice, const std::string& command);
+/// One self-contained page of choose.json and such motions.
+std::string choice_page(nlohmann::json choice, nlohmann::json motion);
 
 /// Writes the configurations of failures in place of those of an earlier choice. Throws
 /// InvalidInput (field "--out") where that fails.

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <limits>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -12,6 +13,7 @@
 #include "properties/files/disk.hpp"
 #include "reports/choice/choice.hpp"
 #include "reports/make_report.hpp"
+#include "reports/pages/page.hpp"
 #include "reports/replay.hpp"
 #include "reports/report_json.hpp"
 
@@ -149,11 +151,6 @@ std::string as_file_name(std::string name) {
   return name;
 }
 
-/// The names of files and folders may be of any bytes; JSON is UTF-8.
-std::string dumped(const json& value, int indent) {
-  return value.dump(indent, ' ', false, json::error_handler_t::replace);
-}
-
 void write_configuration(const std::string& file, const Configuration& configuration) {
   write_file(file, to_json(configuration).dump() + '\n', "--out");
 }
@@ -186,8 +183,7 @@ json scene_json(const SceneFile& file, const Trials& trials, const Spreads& spre
           {"undecidable", undecidable}};
 }
 
-std::string choice_json(const Choice& choice, const std::string& command, const std::string& folder,
-                        int indent) {
+json choice_json(const Choice& choice, const std::string& command, const std::string& folder) {
   json runs = json::array(), kinds = json::array(), too_slow = json::array(), same = json::array();
   for (std::size_t i = 0; i < choice.runs.size(); ++i) {
     runs.push_back(run_json(choice, i, folder));
@@ -195,32 +191,29 @@ std::string choice_json(const Choice& choice, const std::string& command, const 
   for (std::size_t k = 0; k < choice.kinds.all().size(); ++k) kinds.push_back(kind_json(choice, k));
   for (const Candidate* c : choice.too_slow) too_slow.push_back(c->name);
   for (const Candidate* c : choice.same_as_sphere) same.push_back(c->name);
-  const json result = {
-      {"schema", "touchstone-choice-1"},
-      {"command", command},
-      {"machine", to_json(describe_machine())},
-      {"scene", scene_json(choice.file, choice.trials, choice.spreads)},
-      {"possible", !choice.impossible},
-      {"step_saved", choice.impossible ? 0 : choice.step_saved()},
-      {"worthwhile", choice.answer != 0},
-      {"frame_microseconds", choice.frame_seconds(choice.runs[choice.answer]) * 1e6},
-      {"exact_frame_microseconds", choice.frame_seconds(choice.runs[0]) * 1e6},
-      {"point_microseconds",
-       choice.point_seconds() ? json(*choice.point_seconds() * 1e6) : json(nullptr)},
-      {"unasked", choice.answer == 0 ? "" : unasked_text(choice)},
-      {"cheaper_routines", choice.impossible ? "" : cheaper_routines(choice)},
-      {"long_step", long_step_text(choice)},
-      {"kinds", kinds},
-      {"answer", choice.answer},
-      {"runs", runs},
-      {"front", front(choice)},
-      {"too_slow", too_slow},
-      {"same_as_sphere", same}};
-  return dumped(result, indent);
+  return {{"schema", "touchstone-choice-1"},
+          {"command", command},
+          {"machine", to_json(describe_machine())},
+          {"scene", scene_json(choice.file, choice.trials, choice.spreads)},
+          {"possible", !choice.impossible},
+          {"step_saved", choice.impossible ? 0 : choice.step_saved()},
+          {"worthwhile", choice.answer != 0},
+          {"frame_microseconds", choice.frame_seconds(choice.runs[choice.answer]) * 1e6},
+          {"exact_frame_microseconds", choice.frame_seconds(choice.runs[0]) * 1e6},
+          {"point_microseconds",
+           choice.point_seconds() ? json(*choice.point_seconds() * 1e6) : json(nullptr)},
+          {"unasked", choice.answer == 0 ? "" : unasked_text(choice)},
+          {"cheaper_routines", choice.impossible ? "" : cheaper_routines(choice)},
+          {"long_step", long_step_text(choice)},
+          {"kinds", kinds},
+          {"answer", choice.answer},
+          {"runs", runs},
+          {"front", front(choice)},
+          {"too_slow", too_slow},
+          {"same_as_sphere", same}};
 }
 
-std::string pairs_json(const PairsChoice& choice, const std::string& command,
-                       const std::string& folder, int indent) {
+json pairs_json(const PairsChoice& choice, const std::string& command, const std::string& folder) {
   json pairs = json::array();
   for (std::size_t i = 0; i < choice.pairs.size(); ++i) {
     const PairChoice& pair = choice.pairs[i];
@@ -234,19 +227,23 @@ std::string pairs_json(const PairsChoice& choice, const std::string& command,
                      {"chosen", pair.chosen ? candidates[*pair.chosen] : json(nullptr)},
                      {"candidates", candidates}});
   }
-  const json result = {{"schema", "touchstone-pair-choice-1"},
-                       {"command", command},
-                       {"machine", to_json(describe_machine())},
-                       {"name", choice.name},
-                       {"shapes", choice.shapes},
-                       {"ignored", choice.ignored},
-                       {"needs",
-                        {{"depth", choice.needs.depth},
-                         {"angle", choice.needs.angle},
-                         {"count", choice.needs.count},
-                         {"seed", choice.needs.seed}}},
-                       {"pairs", pairs}};
-  return dumped(result, indent);
+  return {{"schema", "touchstone-pair-choice-1"},
+          {"command", command},
+          {"machine", to_json(describe_machine())},
+          {"name", choice.name},
+          {"shapes", choice.shapes},
+          {"ignored", choice.ignored},
+          {"needs",
+           {{"depth", choice.needs.depth},
+            {"angle", choice.needs.angle},
+            {"count", choice.needs.count},
+            {"seed", choice.needs.seed}}},
+          {"pairs", pairs}};
+}
+
+std::string choice_page(json choice, json motion) {
+  choice["motion"] = std::move(motion);
+  return render_page(Page::choice, choice);
 }
 
 std::string evidence_file(const Choice& choice, std::size_t run, const std::string& folder) {

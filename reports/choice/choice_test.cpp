@@ -41,7 +41,9 @@ const char* const elsewhere =
     R"({"need": "stays-in", "body": "can", "lower": [5, 5, 5], "upper": [6, 6, 6]})";
 
 TEST(ChoicePage, HoldsItsDataAndLoadsNothing) {
-  const std::string page = choice_page(choice_of(stands), "touchstone choose can.json", "out", {});
+  const Choice choice = choice_of(stands);
+  const std::string page = choice_page(choice_json(choice, "touchstone choose can.json", "out"),
+                                       choice_motion(choice, {}));
   const json data = data_of(page), &motion = data["motion"];
   EXPECT_EQ(data["scene"]["needs"][0]["text"], "can stands within 2°");
   ASSERT_GE(motion["runs"].size(), 2U);
@@ -53,8 +55,7 @@ TEST(ChoicePage, HoldsItsDataAndLoadsNothing) {
 
 TEST(ChoicePage, ShowsTheExactRunWhereNoOtherIsWorthIt) {
   // Sixty-four spheres serve, and take longer.
-  const json motion =
-      data_of(choice_page(choice_of(stands, {"spheres:64"}), "", "out", {}))["motion"];
+  const json motion = choice_motion(choice_of(stands, {"spheres:64"}), {});
   ASSERT_EQ(motion["runs"].size(), 1U);
   EXPECT_EQ(motion["runs"][0]["listed"], true);
 }
@@ -74,7 +75,7 @@ TEST(ChoicePage, DrawsWhatStandsForABox) {
   for (std::size_t i = 0; i < choice.runs.size(); ++i) {
     choice.answer = i;  // what is drawn, whichever is the cheapest here
     const std::string& model = choice.runs[i].models[0]->name;
-    const json motion = data_of(choice_page(choice, "", "out", {}))["motion"];
+    const json motion = choice_motion(choice, {});
     const auto shown = std::ranges::find_if(
         motion["runs"], [](const json& run) { return run["name"] == "the answer"; });
     if (i == 0) continue;
@@ -113,8 +114,7 @@ TEST(ChoicePage, ShowsTheDisturbedRunInWhichExactContactsFail) {
   const Choice choice = choose(can_with(stays_within(as_written)), options);
   ASSERT_TRUE(choice.impossible);
   ASSERT_GT(choice.runs[0].disturbance, 0U);
-  const std::string page = choice_page(choice, "", "out", {});
-  const json runs = data_of(page)["motion"]["runs"];
+  const json runs = choice_motion(choice, {})["runs"];
   ASSERT_EQ(runs.size(), 2U);
   EXPECT_EQ(runs[0]["listed"], false);
   EXPECT_EQ(runs[1]["listed"], true);
@@ -172,12 +172,12 @@ TEST(ChoiceText, SaysWhereACapsuleIsASphere) {
   file.scene.bodies[1].pose = Pose(Vec3(0, 0, 0.1));
   const Choice both = choose(file, {find_candidates({"capsule", "spheres:1"}), 1, {}, {0, 1}});
   EXPECT_THAT(choice_text(both, "out"), HasSubstr("\n  capsule               is spheres:1 here\n"));
-  EXPECT_EQ(json::parse(choice_json(both, "", "out"))["same_as_sphere"], json({"capsule"}));
+  EXPECT_EQ(choice_json(both, "", "out")["same_as_sphere"], json({"capsule"}));
   Choice choice = choose(file, {find_candidates({"capsule"}), 1, {}, {0, 1}});
   choice.answer = 1;  // whichever is the answer here
   ASSERT_EQ(choice.runs[1].name, "capsule");
   EXPECT_THAT(choice_text(choice, "out"), HasSubstr("): capsule (a sphere here)\n"));
-  EXPECT_EQ(json::parse(choice_json(choice, "", "out"))["kinds"][0]["is_sphere"], true);
+  EXPECT_EQ(choice_json(choice, "", "out")["kinds"][0]["is_sphere"], true);
 }
 
 // An engine's routine answers for the cylinder itself: it stands for nothing, and is no answer,
@@ -203,7 +203,8 @@ TEST(ChoiceText, SetsEnginesRoutinesApartFromModels) {
   EXPECT_LT(at("\n  capsule "), at("\nRoutines, not models "));
   EXPECT_LT(at("\n  prism:64 "), at("\nRoutines, not models "));
   EXPECT_GT(at("\n  ode "), at("\nRoutines, not models "));
-  for (const json& run : json::parse(choice_json(choice, "", "out"))["runs"]) {
+  const json written = choice_json(choice, "", "out");
+  for (const json& run : written["runs"]) {
     EXPECT_EQ(run["models_alone"], run["name"] != "ode");
   }
   EXPECT_THAT(choice_text(choice_of(stands), "out"), testing::Not(HasSubstr("outines")));
@@ -221,7 +222,7 @@ TEST(ChoiceText, OfTheUnaskedIsOfAllRunsOfTheAnswer) {
                         "the same disturbance (exact runs differ by 0.75 m); can ends up "
                         "to 12° from its tilt there (exact runs differ by 8°)."));
   EXPECT_THAT(choice_text(choice, "out", 400), HasSubstr(unasked));
-  EXPECT_EQ(json::parse(choice_json(choice, "", "out"))["unasked"], unasked);
+  EXPECT_EQ(choice_json(choice, "", "out")["unasked"], unasked);
 }
 
 // What falls by its own width in a step is deep in the ground before a contact is found.
@@ -243,7 +244,7 @@ TEST(ChoiceText, SaysThatStepsAreLongWhereExactContactsFail) {
 TEST(ChoiceText, AndJsonNameTheCommandThatMakesAFailureAgain) {
   Choice choice = choice_of(stands);
   choice.arguments = "can.json";
-  const json data = json::parse(choice_json(choice, "", "out"));
+  const json data = choice_json(choice, "", "out");
   for (std::size_t i = 0; i < choice.runs.size(); ++i) {
     const SceneRun& run = choice.runs[i];
     const std::string which =
@@ -263,7 +264,7 @@ TEST(ChoiceText, AndJsonSayWhichNeedsExactRunsDoNotDecide) {
                         "0.28 m: can ends within 0.01 m of the exact place\n"));
   EXPECT_THAT(text, testing::ContainsRegex("\n  2. holds  can ends within 1 m of the exact place: "
                                            "[0-9.e-]+ m \\(exact runs differ by [0-9.e-]+ m\\)\n"));
-  const json scene = json::parse(choice_json(choice, "", "out"))["scene"];
+  const json scene = choice_json(choice, "", "out")["scene"];
   ASSERT_EQ(scene["undecidable"].size(), 1U);
   EXPECT_EQ(scene["undecidable"][0]["limit"], 0.01);
   EXPECT_EQ(scene["undecidable"][0]["spread"], 0.28);
@@ -292,7 +293,7 @@ TEST(ChoiceText, ShowsOfManyNeedsThoseNearestToTheirLimits) {
 
 TEST(ChoiceText, AndJsonNameTheSameReplayOfAFailure) {
   const Choice choice = choice_of(stands);
-  const json data = json::parse(choice_json(choice, "", "out"));
+  const json data = choice_json(choice, "", "out");
   for (const json& run : data["runs"]) {
     if (run["name"] != "capsule") continue;
     EXPECT_EQ(run["holds"], false);
@@ -355,7 +356,7 @@ TEST(EngineChoiceText, SaysWhatComesNearestWhereNothingHolds) {
                         "     with cylinder: 30°\n"
                         "     with cylinder + touchstone: 4°\n"));
   EXPECT_THAT(text, HasSubstr("dCreateBox(space, 0.2, 0.2, 0.4)"));
-  const json data = json::parse(engine_choice_json(choice, ""));
+  const json data = engine_choice_json(choice, "");
   EXPECT_EQ(data["answer"], nullptr);
   EXPECT_EQ(data["settings"][data["nearest"].get<std::size_t>()]["name"], "box");
   EXPECT_EQ(data["sizes"][0]["shape"], "box");
@@ -398,7 +399,7 @@ TEST_F(WarehousePairs, AreServedByTheExactCylinderAndScoredAlikeEachTime) {
 
 TEST_F(WarehousePairs, NameTheConfigurationOfWhatDoesNotServe) {
   const PairsChoice choice = choose();
-  const json data = json::parse(pairs_json(choice, "", "out"));
+  const json data = pairs_json(choice, "", "out");
   int failures = 0;
   for (std::size_t i = 0; i < choice.pairs.size(); ++i) {
     for (std::size_t k = 0; k < choice.pairs[i].candidates.size(); ++k) {

@@ -199,7 +199,7 @@ std::string engine_choice_text(const EngineChoice& choice, std::size_t columns) 
   return text + settings_table(choice, columns);
 }
 
-std::string engine_choice_json(const EngineChoice& choice, const std::string& command, int indent) {
+json engine_choice_json(const EngineChoice& choice, const std::string& command) {
   json sizes = json::array(), settings = json::array();
   json scene = scene_json(choice.file, choice.trials, choice.spreads);
   scene["left_out"] = choice.left_out;
@@ -214,19 +214,18 @@ std::string engine_choice_json(const EngineChoice& choice, const std::string& co
                      {"lines", engine_lines(choice.engine.name, shape, cylinder_of(choice, i))}});
   }
   for (const EngineSetting& s : choice.settings) settings.push_back(setting_json(choice, s));
-  const json result = {{"schema", "touchstone-engine-choice-1"},
-                       {"command", command},
-                       {"machine", to_json(describe_machine())},
-                       {"engine",
-                        {{"name", choice.engine.name},
-                         {"version", choice.engine.version},
-                         {"settings", choice.engine.settings}}},
-                       {"scene", scene},
-                       {"sizes", sizes},
-                       {"answer", choice.answer ? json(*choice.answer) : json(nullptr)},
-                       {"nearest", choice.nearest()},
-                       {"settings", settings}};
-  return result.dump(indent, ' ', false, json::error_handler_t::replace);
+  return {{"schema", "touchstone-engine-choice-1"},
+          {"command", command},
+          {"machine", to_json(describe_machine())},
+          {"engine",
+           {{"name", choice.engine.name},
+            {"version", choice.engine.version},
+            {"settings", choice.engine.settings}}},
+          {"scene", scene},
+          {"sizes", sizes},
+          {"answer", choice.answer ? json(*choice.answer) : json(nullptr)},
+          {"nearest", choice.nearest()},
+          {"settings", settings}};
 }
 
 }  // namespace touchstone

@@ -14,7 +14,6 @@
 #include "properties/files/configuration_json.hpp"
 #include "reports/choice/choice.hpp"
 #include "reports/pages/page.hpp"
-#include "reports/report_json.hpp"
 #include "simulation/engines/run_engines.hpp"
 
 namespace touchstone {
@@ -72,6 +71,14 @@ std::optional<Parting> parting(const Scene& scene, const std::vector<float>& one
   return std::nullopt;
 }
 
+/// A ball, or a capsule along local z.
+json round_shape(double radius, double half_length) {
+  if (half_length > 0) {
+    return {{"shape", "capsule"}, {"radius", radius}, {"half_length", half_length}};
+  }
+  return {{"shape", "sphere"}, {"radius", radius}};
+}
+
 /// Parts of what stands for a cylinder, in its frame; none where that is itself.
 json shape_parts(const std::string& family, int count, const Cylinder& c) {
   const double r = c.radius(), h = c.half_length();
@@ -91,13 +98,9 @@ json shape_parts(const std::string& family, int count, const Cylinder& c) {
     part.place(Eigen::Matrix3d::Identity(), Vec3::Zero());
     const auto& core = part.vertices();
     const Vec3 centre = (core.front() + core.back()) / 2;
-    json shape = {{"shape", "sphere"}, {"radius", part.radius()}};
-    if (core.size() == 2) {
-      shape = {{"shape", "capsule"},
-               {"radius", part.radius()},
-               {"half_length", (core[1] - core[0]).norm() / 2}};
-    }
-    result.push_back({{"shape", shape}, {"centre", to_json(centre)}});
+    result.push_back(
+        {{"shape", round_shape(part.radius(), (core.back() - core.front()).norm() / 2)},
+         {"centre", to_json(centre)}});
   }
   return result;
 }
@@ -107,14 +110,9 @@ json parts_of_box(const Candidate& candidate, const Shape& box) {
   json result = json::array();
   const auto parts = box_parts(candidate, box);
   if (!parts) return result;
-  json shape = {{"shape", "sphere"}, {"radius", parts->radius}};
-  if (parts->half_length > 0) {
-    shape["shape"] = "capsule";
-    shape["half_length"] = parts->half_length;
-  }
   const Eigen::Quaterniond& q = parts->along;
   for (const Vec3& centre : parts->centres) {
-    result.push_back({{"shape", shape},
+    result.push_back({{"shape", round_shape(parts->radius, parts->half_length)},
                       {"centre", to_json(centre)},
                       {"orientation", {q.w(), q.x(), q.y(), q.z()}}});
   }
@@ -205,6 +203,13 @@ class Motions {
     return runs_.size() - 1;
   }
 
+  /// Index of the run that stands on the left under this disturbance, which `make` adds once.
+  std::size_t beside(std::size_t disturbance, const std::function<std::size_t()>& make) {
+    const auto [at, is_new] = beside_.try_emplace(disturbance, 0);
+    if (is_new) at->second = make();
+    return at->second;
+  }
+
   /// The command that draws the run that was added last.
   void add_command(const std::string& command) { runs_.back()["command"] = command; }
 
@@ -223,6 +228,7 @@ class Motions {
   const SceneFile& file_;
   json runs_ = json::array();
   std::vector<std::vector<float>> poses_;
+  std::map<std::size_t, std::size_t> beside_;  // by disturbance
 };
 
 std::string note(const SceneFile& file, const RepeatedRun& run) {
@@ -233,23 +239,9 @@ std::string note(const SceneFile& file, const RepeatedRun& run) {
                      file.needs[broken]->text(file.scene));
 }
 
-/// Runs of which one stands on the left where it was made under the same disturbance, made once.
-class RunsBeside {
- public:
-  using Make = std::function<std::size_t(std::size_t disturbance)>;
-  explicit RunsBeside(Make make) : make_(std::move(make)) {}
-  std::size_t of(std::size_t disturbance) {
-    const auto found = index_.find(disturbance);
-    if (found != index_.end()) return found->second;
-    return index_[disturbance] = make_(disturbance);
-  }
+}  // namespace
 
- private:
-  Make make_;
-  std::map<std::size_t, std::size_t> index_;
-};
-
-json motion_json(const Choice& choice, const Limits& limits) {
+json choice_motion(const Choice& choice, const Limits& limits) {
   const Scene& scene = choice.file.scene;
   Processes processes(limits);
   const auto run = [&](const SceneRun& models, std::size_t disturbance) {
@@ -269,21 +261,25 @@ json motion_json(const Choice& choice, const Limits& limits) {
                 json::array(), 0, true);
     motions.add_command(render_command(choice, answer));
   }
-  const std::string name = choice.answer == 0 ? "exact" : "the answer";
-  RunsBeside holding([&](std::size_t disturbance) {
+  const auto holding = [&](std::size_t disturbance) {
     if (choice.answer == 0 && disturbance == 0) return std::size_t{0};
-    return motions.add(name, "", run(answer, disturbance), models_of(choice, answer), 0, false);
-  });
+    return motions.add(choice.answer == 0 ? "exact" : "the answer", "", run(answer, disturbance),
+                       models_of(choice, answer), 0, false);
+  };
   for (const std::size_t i : shown_runs) {
     const SceneRun& shown = choice.runs[i];
-    const std::size_t beside = i == choice.answer ? 0 : holding.of(shown.disturbance);
-    const std::size_t disturbance = i == choice.answer ? 0 : shown.disturbance;
-    motions.add(i == choice.answer ? "the answer" : shown.name, note(choice.file, shown),
+    const bool is_answer = i == choice.answer;
+    const std::size_t disturbance = is_answer ? 0 : shown.disturbance;
+    const std::size_t beside =
+        is_answer ? 0 : motions.beside(disturbance, [&] { return holding(disturbance); });
+    motions.add(is_answer ? "the answer" : shown.name, note(choice.file, shown),
                 run(shown, disturbance), models_of(choice, shown), beside, true);
     if (disturbance == shown.disturbance) motions.add_command(render_command(choice, shown));
   }
   return motions.to_json();
 }
+
+namespace {
 
 /// Poses of a run in the engine, in a process of its own; none if the engine ended it.
 std::vector<float> contained_poses(const EngineChoice& choice, const EngineSetting& setting,
@@ -304,42 +300,29 @@ std::vector<float> contained_poses(const EngineChoice& choice, const EngineSetti
   return numbers;
 }
 
-json motion_json(const EngineChoice& choice) {
+}  // namespace
+
+json choice_motion(const EngineChoice& choice) {
   constexpr std::size_t max_shown = 8;
   Motions motions(choice.file);
   const std::size_t best = choice.answer.value_or(1);
   const EngineSetting& answer = choice.settings[best];
-  RunsBeside holding([&](std::size_t disturbance) {
-    return motions.add(setting_name(answer), note(choice.file, answer),
-                       contained_poses(choice, answer, disturbance), models_of(choice, answer), 0,
-                       false);
-  });
+  const auto add = [&](const EngineSetting& setting, std::size_t disturbance, std::size_t beside,
+                       bool is_listed) {
+    return motions.add(setting_name(setting), note(choice.file, setting),
+                       contained_poses(choice, setting, disturbance), models_of(choice, setting),
+                       beside, is_listed);
+  };
   std::size_t listed = 0;
   for (std::size_t i = 0; i < choice.settings.size() && listed < max_shown; ++i) {
     const EngineSetting& shown = choice.settings[i];
     if (i == best || !shown.end.empty()) continue;
-    const std::size_t beside = holding.of(shown.disturbance);
-    motions.add(setting_name(shown), note(choice.file, shown),
-                contained_poses(choice, shown, shown.disturbance), models_of(choice, shown), beside,
-                true);
+    const std::size_t disturbance = shown.disturbance;
+    add(shown, disturbance,
+        motions.beside(disturbance, [&] { return add(answer, disturbance, 0, false); }), true);
     ++listed;
   }
   return motions.to_json();
-}
-
-}  // namespace
-
-std::string choice_page(const Choice& choice, const std::string& command, const std::string& folder,
-                        const Limits& limits) {
-  json data = json::parse(choice_json(choice, command, folder));
-  data["motion"] = motion_json(choice, limits);
-  return render_page(Page::choice, data);
-}
-
-std::string choice_page(const EngineChoice& choice, const std::string& command) {
-  json data = json::parse(engine_choice_json(choice, command));
-  data["motion"] = motion_json(choice);
-  return render_page(Page::choice, data);
 }
 
 }  // namespace touchstone
