@@ -70,6 +70,12 @@ std::optional<Inconsistency> inconsistency(const Report& report) {
     return Inconsistency{fmt::format("candidates[{}].name", &c - report.candidates.data()),
                          '"' + c.name + '"', "must stand there once"};
   }
+  std::set<std::pair<std::string, std::string>> classes;
+  for (const PoseClassDescription& c : report.classes) {
+    if (classes.insert({c.pair, c.pose_class}).second) continue;
+    return Inconsistency{fmt::format("classes[{}].class", &c - report.classes.data()),
+                         '"' + c.pose_class + '"', "must stand there once for " + c.pair};
+  }
   CountByClass of_classes, of_groups;
   if (auto found = between_rows(report, report.results, "results", of_classes)) return found;
   if (auto found = between_rows(report, report.summary, "summary", of_groups)) return found;

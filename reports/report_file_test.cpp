@@ -205,6 +205,8 @@ TEST_F(ReportFile, RefusesNumbersThatContradictEachOther) {
   }
   refused({{"/candidates/1/name", "reference"}},
           "candidates[1].name is \"reference\": must stand there once");
+  refused({{"/classes/1", good()["classes"][0]}},
+          "classes[1].class is \"lying\": must stand there once for cylinder-plane");
   refused({{"/configurations", 3}}, "configurations is 3: must be 2, the sum of all classes");
   refused({{"/results/1/count", 1}, {"/results/1/outcomes", {{"agree", 1}}}},
           "results[1].count is 1: must be 2, as in the first row of cylinder-plane/lying");
