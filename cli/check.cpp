@@ -8,241 +8,14 @@
 
 #include "candidates/host/progress.hpp"
 #include "cli/command.hpp"
-#include "cli/failure_text.hpp"
 #include "cli/options.hpp"
 #include "properties/files/disk.hpp"
-#include "properties/files/strict_json.hpp"
 #include "properties/laws/failure_file.hpp"
 #include "reference/invalid_input.hpp"
+#include "reports/check_output.hpp"
 
 namespace touchstone {
 namespace {
-
-using nlohmann::json;
-
-/// "3 missed, 1 shallow; known: 12 missed".
-std::string counts_text(const LawResult& result) {
-  const auto listed = [](const std::map<std::string, std::uint64_t>& counts) {
-    std::string text;
-    for (const auto& [name, count] : counts) {
-      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, name);
-    }
-    return text;
-  };
-  std::string text = listed(result.counts);
-  if (result.known.empty()) return text;
-  return text + (text.empty() ? "" : "; ") + "known: " + listed(result.known);
-}
-
-std::string xml_escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      case '"':
-        result += "&quot;";
-        break;
-      default:
-        result += c;
-    }
-  }
-  return result;
-}
-
-const char* result_name(ReplayedFailure::Result result) {
-  switch (result) {
-    case ReplayedFailure::Result::as_expected:
-      return "as expected";
-    case ReplayedFailure::Result::fixed:
-      return "fixed";
-    case ReplayedFailure::Result::changed:
-      return "changed";
-    case ReplayedFailure::Result::skipped:
-      return "skipped";
-  }
-  return "";
-}
-
-/// Whether it fails a run. A failure that is known may be fixed, but has to be asked.
-bool is_failing(const ReplayedFailure& r, bool is_known) {
-  using Result = ReplayedFailure::Result;
-  return r.result == Result::changed || r.result == (is_known ? Result::skipped : Result::fixed);
-}
-
-std::string corpus_name(const Failure& f) {
-  return fmt::format("{}, {}, {}, {}{}{}", f.candidate, pair_name(pair_of(f.configuration)), f.law,
-                     f.violation.failure, f.features.empty() ? "" : ", ", f.features);
-}
-
-/// What came of a law, beside its name or, on a narrow terminal, below it.
-std::string law_text(const LawResult& r, const Terminal& terminal) {
-  constexpr std::size_t verdict_at = 29, counts_at = 46, min_room = 24;
-  const std::string verdict = r.broken > 0      ? fmt::format("broken by {}", r.broken)
-                              : r.known.empty() ? "passed"
-                                                : "nothing new";
-  const auto coloured = [&](const std::string& text) {
-    if (r.broken > 0) return terminal.bad(text);
-    return r.known.empty() ? terminal.good(text) : text;
-  };
-  const std::string name = fmt::format("  {:<13}{:>6} tried", r.law->name, r.tried);
-  const std::string counts = counts_text(r);
-  if (!counts.empty() && terminal.columns >= counts_at + min_room) {
-    const std::string beside =
-        wrapped(counts, terminal.columns - counts_at, '\n' + std::string(counts_at, ' '));
-    return name + "  " + coloured(fmt::format("{:<16}", verdict)) + ' ' + beside + '\n';
-  }
-  std::string text = terminal.columns >= verdict_at + verdict.size()
-                         ? name + "  " + coloured(verdict) + '\n'
-                         : name + "\n    " + coloured(verdict) + '\n';
-  return counts.empty() ? text
-                        : text + "    " + wrapped(counts, terminal.columns - 4, "\n    ") + '\n';
-}
-
-/// A line for each law and pair, and the first failure of each with what is needed to see it again,
-/// in the order of their groups.
-std::string check_text(const std::vector<LawResult>& results, const Terminal& terminal) {
-  std::string text;
-  const char* last = "";
-  for (const LawResult& r : results) {
-    const char* pair = pair_name(r.pair);
-    if (pair != last) text += '\n' + terminal.heading(pair) + '\n';
-    if (r.tried == 0) {
-      if (pair != last) text += terminal.below("no routine: no law was tried");
-      last = pair;
-      continue;
-    }
-    if (pair != last && r.unsupported > 0) {
-      text += terminal.below(fmt::format("no routine for {}, which no law was tried on",
-                                         counted(r.unsupported, "configuration")));
-    }
-    last = pair;
-    text += law_text(r, terminal);
-  }
-  std::vector<const Failure*> firsts;
-  for (const LawResult& r : results) {
-    if (!r.failures.empty()) firsts.push_back(&r.failures.front());
-  }
-  std::stable_sort(firsts.begin(), firsts.end(), [](const Failure* a, const Failure* b) {
-    return order_of(group_met(*a)) < order_of(group_met(*b));
-  });
-  for (const Failure* f : firsts) text += '\n' + failure_text(*f, terminal);
-  return text;
-}
-
-std::string corpus_text(const std::vector<ReplayedFailure>& corpus, const Terminal& terminal) {
-  std::string text;
-  for (const ReplayedFailure& r : corpus) {
-    const bool is_known = r.now.empty() || r.result == ReplayedFailure::Result::as_expected;
-    const std::string name =
-        corpus_name(r.expected) + (is_known ? "" : fmt::format(" ({})", r.now));
-    text += fmt::format("  {:<12} {}\n", result_name(r.result),
-                        wrapped(name, terminal.columns - 15, '\n' + std::string(15, ' ')));
-  }
-  return text;
-}
-
-/// For continuous integration: a test suite per candidate, a test case per law and pair, and one
-/// per saved failure. What is known is skipped and says so, as pytest writes failures that are
-/// expected, for JUnit has no word of its own.
-std::string junit_xml(const std::string& candidate, const std::vector<LawResult>& results,
-                      const std::vector<ReplayedFailure>& corpus,
-                      const std::vector<ReplayedFailure>& known) {
-  const Terminal unbounded{.columns = 1000000};
-  std::string cases;
-  int failures = 0, skipped = 0;
-  const auto skip = [&](const std::string& message) {
-    ++skipped;
-    cases += fmt::format("<skipped message=\"{}\"/>", xml_escaped(message));
-  };
-  double seconds = 0;
-  for (const LawResult& r : results) {
-    seconds += r.seconds;
-    cases += fmt::format("    <testcase classname=\"{}.{}\" name=\"{}\" time=\"{:.3f}\">",
-                         xml_escaped(candidate), pair_name(r.pair), r.law->name, r.seconds);
-    if (r.tried == 0) skip("no routine for the pair");
-    if (r.broken == 0 && !r.known.empty()) skip(counts_text(r));
-    if (r.broken > 0) {
-      ++failures;
-      cases += fmt::format("<failure type=\"{}\" message=\"{}\">{}</failure>",
-                           xml_escaped(r.failures.front().violation.failure),
-                           xml_escaped(counts_text(r)),
-                           xml_escaped(failure_text(r.failures.front(), unbounded)));
-    }
-    cases += "</testcase>\n";
-  }
-  using Result = ReplayedFailure::Result;
-  const auto add_saved = [&](const ReplayedFailure& r, const char* kind, bool is_known) {
-    cases +=
-        fmt::format("    <testcase classname=\"{}.{}\" name=\"{}\">",
-                    xml_escaped(r.expected.candidate), kind, xml_escaped(corpus_name(r.expected)));
-    if (is_failing(r, is_known)) {
-      ++failures;
-      cases += fmt::format("<failure type=\"{}\">{}</failure>", result_name(r.result),
-                           xml_escaped(r.now));
-    } else if (r.result == Result::skipped) {
-      skip(r.now);
-    } else if (is_known && r.result == Result::as_expected) {
-      skip("known: " + r.now);
-    }
-    cases += "</testcase>\n";
-  };
-  for (const ReplayedFailure& r : corpus) add_saved(r, "corpus", false);
-  for (const ReplayedFailure& r : known) add_saved(r, "known", true);
-  return fmt::format(
-      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n"
-      "  <testsuite name=\"touchstone check\" tests=\"{}\" failures=\"{}\" skipped=\"{}\" "
-      "time=\"{:.3f}\">\n{}"
-      "  </testsuite>\n</testsuites>\n",
-      results.size() + corpus.size() + known.size(), failures, skipped, seconds, cases);
-}
-
-/// One JSON object (docs/check.md).
-std::string check_json(const std::string& candidate, const CheckOptions& options,
-                       const std::vector<LawResult>& results,
-                       const std::vector<ReplayedFailure>& corpus,
-                       const std::vector<ReplayedFailure>& known) {
-  json laws = json::array(), groups = json::array();
-  for (const Group group : options.groups) groups.push_back(group_name(group));
-  for (const LawResult& r : results) {
-    json failures = json::array();
-    for (const Failure& f : r.failures) failures.push_back(to_json(f));
-    laws.push_back({{"law", r.law->name},
-                    {"pair", pair_name(r.pair)},
-                    {"tried", r.tried},
-                    {"unsupported", r.unsupported},
-                    {"broken", r.broken},
-                    {"outcomes", r.counts},
-                    {"known", r.known},
-                    {"failures", failures}});
-  }
-  json saved = json::array();
-  for (const auto* all : {&corpus, &known}) {
-    for (const ReplayedFailure& r : *all) {
-      json& entry = saved.emplace_back(to_json(r.expected));
-      entry["result"] = result_name(r.result);
-      entry["now"] = r.now;
-      entry["known"] = all == &known;
-    }
-  }
-  const json result = {{"schema", "touchstone-check-1"},
-                       {"candidate", candidate},
-                       {"seed", options.seed},
-                       {"count", options.count},
-                       {"groups", groups},
-                       {"tolerance", options.bar.tolerance},
-                       {"threshold", options.bar.threshold},
-                       {"laws", laws},
-                       {"corpus", saved}};
-  return result.dump(2) + '\n';
-}
 
 /// About as much work: there is one hostile class, and of others some two hundred to a pair.
 constexpr std::uint64_t usual_count_of_class = 20, usual_count_of_hostile = 5000;
@@ -320,11 +93,6 @@ void save_all(const std::vector<LawResult>& results, const std::string& folder,
   }
 }
 
-bool fails(const std::vector<ReplayedFailure>& failures, bool are_known) {
-  return std::any_of(failures.begin(), failures.end(),
-                     [&](const ReplayedFailure& r) { return is_failing(r, are_known); });
-}
-
 /// Known failures that still fail: one that is fixed excuses no other.
 std::vector<Failure> still_failing(const std::vector<ReplayedFailure>& known) {
   std::vector<Failure> result;
@@ -382,19 +150,15 @@ int run_check(const CheckArguments& options) {
   const CheckOptions checks = options.check();
   const Candidate* const candidate =
       options.candidate.empty() ? nullptr : &named_candidate(options.candidate);
-  const std::string name = candidate ? candidate->name : "";
   const Teller teller{options.json};
-  const auto corpus = replay_all(options.corpus, "--corpus", candidate, teller);
-  const auto known = replay_all(options.known, "--known", candidate, teller);
-  const auto results = check_laws(candidate, checks, still_failing(known), teller);
-  if (!options.save.empty()) save_all(results, options.save, teller);
-  if (!options.junit.empty()) {
-    write_file(options.junit, junit_xml(name, results, corpus, known), "--junit");
-  }
-  if (options.json) print(check_json(name, checks, results, corpus, known));
-  const bool broken =
-      std::any_of(results.begin(), results.end(), [](const LawResult& r) { return r.broken > 0; });
-  return broken || fails(corpus, false) || fails(known, true) ? something_failed : 0;
+  CheckResult result{candidate ? candidate->name : "",
+                     replay_all(options.corpus, "--corpus", candidate, teller)};
+  result.known = replay_all(options.known, "--known", candidate, teller);
+  result.laws = check_laws(candidate, checks, still_failing(result.known), teller);
+  if (!options.save.empty()) save_all(result.laws, options.save, teller);
+  if (!options.junit.empty()) write_file(options.junit, junit_xml(result), "--junit");
+  if (options.json) print(check_json(result, checks).dump(2) + '\n');
+  return result.has_failed() ? something_failed : 0;
 }
 
 std::string law_list() {

@@ -11,11 +11,11 @@
 
 #include "candidates/host/progress.hpp"
 #include "cli/command.hpp"
-#include "cli/failure_text.hpp"
 #include "cli/options.hpp"
 #include "properties/files/disk.hpp"
 #include "properties/laws/failure_file.hpp"
 #include "reference/invalid_input.hpp"
+#include "reports/check_output.hpp"
 #include "reports/replay.hpp"
 #include "reports/terminal.hpp"
 

@@ -151,6 +151,13 @@ std::string replay_json(const Examination& examination) {
   return to_json(examination).dump() + '\n';
 }
 
+double nearest_to_middle(const oracle::Enclosure& e) {
+  const mpq_class middle = (e.lo + e.hi) / 2;
+  const double inner = middle.get_d();  // towards zero
+  const double outer = std::nextafter(inner, middle < 0 ? -INFINITY : INFINITY);
+  return abs(middle - inner) <= abs(middle - outer) ? inner : outer;
+}
+
 std::string replay_page(const Examination& examination, const std::string& description) {
   json data = to_json(examination);
   data["hexadecimal"] = to_hex_json(examination.configuration);

@@ -36,6 +36,9 @@ std::string replay_json(const Examination& examination);
 /// from elsewhere.
 std::string replay_page(const Examination& examination, const std::string& description);
 
+/// The double nearest to the middle of an enclosure: -2 where bounds of 1e-30 lie about it.
+double nearest_to_middle(const oracle::Enclosure& enclosure);
+
 /// Engines that a program can be written for that needs nothing of ours: "bullet", "jolt", …
 std::vector<std::string> reproducer_engines();
 

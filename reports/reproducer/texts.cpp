@@ -13,6 +13,7 @@
 #include "candidates/candidates.hpp"
 #include "oracle/patch/contact_patch.hpp"
 #include "properties/files/answer_json.hpp"
+#include "reports/replay.hpp"
 
 namespace touchstone {
 namespace {
@@ -141,19 +142,6 @@ Texts question_texts(const Configuration& c, NumberStyle numbers) {
   writer.texts["Shape_b"] = shape;
   return writer.texts;
 }
-
-namespace {
-
-/// The double nearest to the middle of an enclosure.
-double nearest_to_middle(const oracle::Enclosure& e) {
-  const mpq_class middle = (e.lo + e.hi) / 2;
-  const double inner = middle.get_d();  // towards zero
-  const double outer = std::nextafter(inner, middle < 0 ? -INFINITY : INFINITY);
-  const mpq_class from_inner = abs(middle - inner), from_outer = abs(middle - outer);
-  return from_inner <= from_outer ? inner : outer;
-}
-
-}  // namespace
 
 Texts truth_texts(const Configuration& c, const oracle::Truth& truth, const Bar& bar,
                   NumberStyle numbers) {
