@@ -206,6 +206,11 @@ class PageTest(unittest.TestCase):
         self.assertEqual(self.driver.execute_script(width), 390)
         self.assertEqual(self.driver.execute_script(hidden_text), [])
 
+    def assert_nothing_hidden(self, table):
+        """All columns are in sight."""
+        hidden = "return arguments[0].scrollWidth - arguments[0].clientWidth"
+        self.assertEqual(self.driver.execute_script(hidden, self.find(table)), 0, table)
+
     def assert_pictures_and_keys(self, max_stops):
         """Every picture has a name, every table and chart is one tab stop."""
         self.assertEqual(self.driver.execute_script(nameless_pictures), [])
@@ -613,17 +618,21 @@ class Report(PageTest):
         for table in ("#summary-table", "#model-table"):
             self.assertGreater(self.driver.execute_script(nearest_cells, self.find(table)), 5, table)
         for table in ("#worst-error-table", "#drake-table", "#summary-table", "#manifold-table"):
-            hidden = self.driver.execute_script(
-                "return arguments[0].scrollWidth - arguments[0].clientWidth", self.find(table))
-            self.assertEqual(hidden, 0, table)
+            self.assert_nothing_hidden(table)
         self.assertEqual(self.console(), [])
 
 
 class OtherPages(PageTest):
     def setUp(self):
         self.sit_at_a_desktop()
+        self.page = None
+
+    def tearDown(self):
+        if self.page:
+            self.assert_no_sideways_scrolling_on_a_phone(self.page)
 
     def open(self, page, max_stops=50):
+        self.page = page
         self.assertEqual(self.load(page), [])
         self.assertEqual(self.console(), [])
         self.assertEqual(self.driver.execute_script(hidden_text), [])
@@ -631,18 +640,27 @@ class OtherPages(PageTest):
         contrasts = self.driver.execute_script(contrasts_of_text)
         self.assertEqual([c for c in contrasts if c[0] < min_contrast], [])
 
+    def go_to(self, seconds):
+        """Moves the motions to this time."""
+        self.driver.execute_script("""const scrub = document.getElementById('scrub'); scrub.value = arguments[0];
+                                      scrub.dispatchEvent(new Event('input'))""", seconds)
+
+    def show_run(self, name):
+        self.choose("#other", self.driver.execute_script(
+            "return String(data.motion.runs.findIndex(r => r.name === arguments[0]))", name))
+
     def picture(self, selector):
         return self.driver.execute_script("return arguments[0].toDataURL()", self.find(selector))
 
-    def assert_models_are_drawn(self):
-        """Without what stands for its bodies the picture on the right is another one."""
-        with_models = self.picture("#right")
+    def assert_models_are_drawn(self, canvas="#right"):
+        """Without what stands for its bodies the picture is another one."""
+        with_models = self.picture(canvas)
         self.driver.execute_script("""for (const run of data.motion.runs) run.meshes = new Map();
                                       dispatchEvent(new Event('resize'))""")
-        self.assertNotEqual(self.picture("#right"), with_models)
+        self.assertNotEqual(self.picture(canvas), with_models)
         self.driver.execute_script("""for (const run of data.motion.runs) delete run.meshes;
                                       dispatchEvent(new Event('resize'))""")
-        self.assertEqual(self.picture("#right"), with_models)
+        self.assertEqual(self.picture(canvas), with_models)
 
     def with_capsule_over_a_body(self, orientation):
         """The picture on the right with such a capsule in place of what stands for the moving bodies."""
@@ -663,7 +681,12 @@ class OtherPages(PageTest):
         before = self.picture("#view")
         self.find("#view-contact").click()
         self.assertNotEqual(self.picture("#view"), before)
-        self.assert_no_sideways_scrolling_on_a_phone(page)
+        for name in ("plane/general", "sphere/general", "capsule/general", "cylinder/general"):
+            self.run_program("replay", f"cylinder-{name}/1/0", "--candidates", "reference", "--html", page)
+            self.open(page)
+            for body in "ab":  # the slice has an outline of each
+                self.assertRegex(self.find(f"#slice path.{body}").get_attribute("d"), "^M[^N]+z$")  # no NaN
+            self.assertIn("pose_a.position[2]", self.find("#number-table").text)  # which is filled last
 
     def test_a_report_of_experiments(self):
         folder = Path(self.folder.name) / "experiments"
@@ -683,7 +706,6 @@ class OtherPages(PageTest):
         before = self.find("#experiment-table").get_attribute("innerHTML")
         self.choose("#experiment-name", "rolling")
         self.assertNotEqual(self.find("#experiment-table").get_attribute("innerHTML"), before)
-        self.assert_no_sideways_scrolling_on_a_phone(folder / "report.html")
 
     def test_needles_and_coins_are_seen(self):
         page = Path(self.folder.name) / "thin.html"
@@ -719,7 +741,6 @@ class OtherPages(PageTest):
         marks = [m.get_attribute("aria-label") for m in self.all(".chart .mark-symbol path")]
         for name in ("reference", "bullet", "ode"):
             self.assertTrue(any(m.startswith(name + ",") for m in marks), name)
-        self.assert_no_sideways_scrolling_on_a_phone(page)
 
     def test_comparison_where_nothing_moved_and_where_one_candidate_did(self):
         folder = Path(self.folder.name) / "unmoved"
@@ -757,7 +778,6 @@ class OtherPages(PageTest):
         self.find(".toggle").click()
         self.assertEqual(len(self.all(".chart .mark-line path")), lines // 2)
         self.assertEqual(len(self.all("#stability tbody tr th[scope=row]")), 3)
-        self.assert_no_sideways_scrolling_on_a_phone(folder / "stability.html")
 
     def test_choice(self):
         folder = Path(self.folder.name) / "choose"
@@ -771,15 +791,13 @@ class OtherPages(PageTest):
         routines = self.all("#run-table h3 + table tbody td:first-child")  # apart from models
         self.assertEqual([cell.text for cell in routines], ["ode"])
         self.assertIn("exact runs differ by", self.find("#need-table").text)
-        self.choose("#other", self.driver.execute_script(
-            "return String(data.motion.runs.findIndex(r => r.name === 'spheres:1'))"))
+        self.show_run("spheres:1")
         self.assertIn("parts from the run beside it at", self.find("#other-note").text)
         run = self.driver.execute_script("return data.motion.runs[document.getElementById('other').value]")
         self.assertAlmostEqual(float(self.find("#scrub").get_attribute("value")),
                                max(0, run["from"] - 0.1), places=3)
         start = self.picture("#left")
-        self.driver.execute_script("""const scrub = document.getElementById('scrub'); scrub.value = 1;
-                                      scrub.dispatchEvent(new Event('input'))""")
+        self.go_to(1)
         later = self.picture("#left")
         self.assertNotEqual(later, start)
         self.assertNotEqual(self.picture("#right"), later)
@@ -789,15 +807,12 @@ class OtherPages(PageTest):
         self.assertEqual(self.find("#play").text, "Pause")
         self.assertIn("The same as spheres:1 here: capsule.", self.find("#too-slow").text)  # of a flat wheel
         for model in ("prism:16", "spheres:1"):
-            self.choose("#other", self.driver.execute_script(
-                "return String(data.motion.runs.findIndex(r => r.name === arguments[0]))", model))
-            self.driver.execute_script("""const scrub = document.getElementById('scrub'); scrub.value = 1;
-                                          scrub.dispatchEvent(new Event('input'))""")  # the wheel is in sight
+            self.show_run(model)
+            self.go_to(1)  # the wheel is in sight
             self.assert_models_are_drawn()
             self.assertRegex(self.find("#other-command").text, f"--contacts '?{model}\\b")
         pictures = [self.with_capsule_over_a_body(turn) for turn in ([1, 0, 0, 0], [0.7, 0.7, 0, 0])]
         self.assertNotEqual(*pictures)
-        self.assert_no_sideways_scrolling_on_a_phone(folder / "choose.html")
 
     def test_choice_for_a_robot_lists_what_was_not_read(self):
         folder = Path(self.folder.name) / "choose-robot"
@@ -805,7 +820,6 @@ class OtherPages(PageTest):
                          "--duration", "0.1", "--disturbances", "1", "--out", folder)
         self.open(folder / "choose.html")
         self.assertIn("mesh", self.driver.find_element(By.ID, "ignored").get_attribute("textContent"))
-        self.assert_no_sideways_scrolling_on_a_phone(folder / "choose.html")
 
     def test_choice_of_many_needs(self):
         folder = Path(self.folder.name) / "choose-needs"
@@ -819,11 +833,9 @@ class OtherPages(PageTest):
         self.assertEqual(self.driver.execute_script("return data.answer"), 0)
         self.assertNotIn("instead of", self.find("#provenance").text)  # exact contacts
         self.assertLess(self.find("#need-table").size["height"], 600)
-        self.assert_no_sideways_scrolling_on_a_phone(folder / "choose.html")
         for table in ("#kind-table", "#need-table"):
             self.assertGreater(self.driver.execute_script(nearest_cells, self.find(table)), 5, table)
-            sideways = "return arguments[0].scrollWidth - arguments[0].clientWidth"
-            self.assertEqual(self.driver.execute_script(sideways, self.find(table)), 0, table)
+            self.assert_nothing_hidden(table)
 
     def test_choice_in_an_engine(self):
         folder = Path(self.folder.name) / "choose-engine"
@@ -833,11 +845,7 @@ class OtherPages(PageTest):
         self.assertIn("The default cylinder breaks", self.find("#headline").text)
         self.assertIn("btSphereShape", self.find("#kind-table pre").text)
         self.assertGreater(len(self.all("#run-table tbody tr")), 10)
-        with_model = self.picture("#left")
-        self.driver.execute_script("""for (const run of data.motion.runs) run.meshes = new Map();
-                                      dispatchEvent(new Event('resize'))""")
-        self.assertNotEqual(self.picture("#left"), with_model)  # which draws spheres over the rod
-        self.assert_no_sideways_scrolling_on_a_phone(folder / "choose.html")
+        self.assert_models_are_drawn("#left")  # spheres over the rod
 
     def test_engines(self):
         folder = Path(self.folder.name) / "engines"
@@ -845,8 +853,7 @@ class OtherPages(PageTest):
                          "--out", folder)
         self.open(folder / "engines.html")
         self.assertEqual(len(self.all("#scene option")), 2)
-        self.driver.execute_script("""const scrub = document.getElementById('scrub'); scrub.value = 5;
-                                      scrub.dispatchEvent(new Event('input'))""")
+        self.go_to(5)
         self.assertNotEqual(self.picture("#left"), self.picture("#right"))
         before = self.picture("#right")
         self.choose("#scene", "1")
@@ -855,7 +862,6 @@ class OtherPages(PageTest):
         rest_of = "return restOf({exact: arguments[0], last_motion: 10, last_time: 10}, {rests: true})"
         self.assertIn("jitters", self.driver.execute_script(rest_of, True))  # held contradicts never
         self.assertEqual(self.driver.execute_script(rest_of, False), "never")
-        self.assert_no_sideways_scrolling_on_a_phone(folder / "engines.html")
 
 
 if __name__ == "__main__":

@@ -1,20 +1,14 @@
 #include "reports/pages/page.hpp"
 
-#include <array>
-#include <cstdio>
-#include <cstdlib>
-#include <filesystem>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <set>
-#include <unistd.h>
 #include <utility>
 
 #include <nlohmann/json.hpp>
 
 #include "candidates/npm_engines.hpp"
 #include "properties/files/configuration_json.hpp"
-#include "properties/files/disk.hpp"
 #include "reports/pages/page_data.hpp"
 #include "reports/replay.hpp"
 #include "reports/report_json.hpp"
@@ -157,36 +151,6 @@ TEST(ReplayPage, HostileReasonsStayData) {
   const std::string page = replay_page(hostile, "");
   EXPECT_EQ(data_of(page)["answers"]["x"]["reason"], reason);
   EXPECT_THAT(page, Not(HasSubstr("<script>alert")));
-}
-
-/// What Chromium makes of the page, as HTML; empty if it could not be run.
-std::string drawn(const std::filesystem::path& file) {
-  const std::string command =
-      "chromium --headless --no-sandbox --disable-gpu --dump-dom --virtual-time-budget=600000 "
-      "file://" +
-      file.string() + " 2>/dev/null";
-  std::string text;
-  FILE* const pipe = popen(command.c_str(), "r");
-  std::array<char, 4096> part;
-  while (pipe && std::fgets(part.data(), part.size(), pipe)) text += part.data();
-  if (pipe) pclose(pipe);
-  return text;
-}
-
-TEST(ReplayPage, DrawsBothBodiesInABrowser) {
-  if (std::system("command -v chromium >/dev/null") != 0) GTEST_SKIP() << "no chromium here";
-  const auto file = std::filesystem::temp_directory_path() /
-                    ("replay_page_test." + std::to_string(getpid()) + ".html");
-  for (const Pair pair : all_pairs) {
-    write_file(file, page_of({pair, pose_classes(pair).front(), 1, 0}), "file");
-    const std::string page = drawn(file);
-    // The slice has an outline of each body; the last table is filled after everything was drawn.
-    EXPECT_THAT(page, HasSubstr("<path class=\"a\" d=\"M")) << pair_name(pair);
-    EXPECT_THAT(page, HasSubstr("<path class=\"b\" d=\"M")) << pair_name(pair);
-    EXPECT_THAT(page, HasSubstr("pose_a.position[2]")) << pair_name(pair);
-    EXPECT_THAT(page, Not(HasSubstr("NaN"))) << pair_name(pair);
-  }
-  std::filesystem::remove(file);
 }
 
 }  // namespace
