@@ -185,8 +185,8 @@ int simulate_in_engines(const SimulateArguments& options) {
   if (interrupted()) return interrupted_exit_code();
   if (options.out.empty()) return 0;
   write_file(options.out + "/engines.json", json.dump(1) + '\n', "--out");
-  write_file(options.out + "/engines.html", engines_page(results, options.engines_command()),
-             "--out");
+  write_file(options.out + "/engines.html",
+             engines_page(results, options.engines_command(), engine_motions(results)), "--out");
   if (!options.json)
     print(fmt::format("\nPage: {0}/engines.html; data: {0}/engines.json\n", options.out));
   return 0;

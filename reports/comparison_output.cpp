@@ -1,13 +1,14 @@
 #include <algorithm>
 #include <fmt/format.h>
+#include <map>
 #include <utility>
 
 #include <nlohmann/json.hpp>
 
 #include "properties/files/given_text.hpp"
 #include "reports/compare.hpp"
-#include "reports/covered_pairs.hpp"
 #include "reports/pages/page.hpp"
+#include "reports/replay.hpp"
 #include "reports/report_json.hpp"
 #include "reports/terminal.hpp"
 
@@ -101,28 +102,6 @@ json to_json(const Comparison& c) {
           {"changes", changes}};
 }
 
-/// Places of the candidates in time and error, as the page draws them.
-json places(const Report& report) {
-  json result = json::array();
-  for (const ResultRow& row : report.summary) {
-    json place = {
-        {"pair", row.pair},           {"group", row.pose_class},
-        {"candidate", row.candidate}, {"nanoseconds", nullptr},
-        {"depth_error", nullptr},     {"pareto", row.pareto ? json(*row.pareto) : json(nullptr)}};
-    if (row.time) {
-      const auto& ratio = row.time->ratio_to_bullet;
-      place["nanoseconds"] = {{"median", row.time->nanoseconds.median},
-                              {"ratio_to_bullet", ratio ? json(ratio->median) : json(nullptr)}};
-    }
-    place["covers"] = covered_text(report, row);
-    if (row.statistics.depth_error) {
-      place["depth_error"] = {{"p99", row.statistics.depth_error->p99}};
-    }
-    result.push_back(std::move(place));
-  }
-  return result;
-}
-
 }  // namespace
 
 std::string comparison_text(const Comparison& c, const Terminal& terminal) {
@@ -159,21 +138,14 @@ std::string comparison_json(const Comparison& comparison) {
 
 std::string comparison_page(const Comparison& comparison, const Report& before,
                             const Report& after) {
-  std::vector<std::string> names;
+  std::map<std::string, std::string> runs;
   for (const Report* report : {&before, &after}) {
-    for (const ResultRow& row : report->summary) names.push_back(row.candidate);
+    for (const CandidateDescription& c : report->candidates) runs[c.name] = c.runs;
   }
-  json runs = json::object();
-  for (const Report* report : {&before, &after}) {
-    for (const CandidateDescription& c : report->candidates) {
-      if (c.runs != "native") runs[c.name] = c.runs;
-    }
-  }
-  return render_page(Page::comparison, {{"comparison", to_json(comparison)},
-                                        {"before", places(before)},
-                                        {"after", places(after)},
-                                        {"marks", marks(names)},
-                                        {"runs", runs}});
+  return render_page(Page::comparison, with_candidates({{"comparison", to_json(comparison)},
+                                                        {"before", summary_json(before)},
+                                                        {"after", summary_json(after)}},
+                                                       runs));
 }
 
 }  // namespace touchstone

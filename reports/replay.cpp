@@ -6,6 +6,7 @@
 #include <cstring>
 #include <fmt/format.h>
 #include <numeric>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
@@ -158,19 +159,30 @@ double nearest_to_middle(const oracle::Enclosure& e) {
   return abs(middle - inner) <= abs(middle - outer) ? inner : outer;
 }
 
+json with_candidates(json data, const std::map<std::string, std::string>& runs) {
+  data["program"] = program_name({});
+  data["marks"] = json::object();
+  for (const auto& [name, how] : runs) {
+    const Mark mark = mark_of(name);
+    data["marks"][name] = {mark.colour, mark.symbol};
+    if (how != "native") data["runs"][name] = how;
+    // Needs an option before it is known.
+    const std::string program = program_name({name});
+    if (program != data["program"]) data["programs"][name] = program;
+  }
+  return data;
+}
+
 std::string replay_page(const Examination& examination, const std::string& description) {
   json data = to_json(examination);
   data["hexadecimal"] = to_hex_json(examination.configuration);
   data["exact"] = to_exact_json(examination.configuration);
   data["description"] = description;
-  std::vector<std::string> names;
-  for (const ScoredAnswer& answer : examination.answers) names.push_back(answer.candidate);
-  data["marks"] = marks(names);
-  for (const std::string& name : names) {
-    const std::string runs = runs_as(name);
-    if (runs != "native") data["runs"][name] = runs;
+  std::map<std::string, std::string> runs;
+  for (const ScoredAnswer& answer : examination.answers) {
+    runs[answer.candidate] = runs_as(answer.candidate);
   }
-  return render_page(Page::replay, data);
+  return render_page(Page::replay, with_candidates(std::move(data), runs));
 }
 
 namespace {

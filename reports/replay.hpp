@@ -1,9 +1,12 @@
 #pragma once
 
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include <nlohmann/json_fwd.hpp>
 
 #include "candidates/host/candidate_process.hpp"
 #include "oracle/judge/score.hpp"
@@ -35,6 +38,10 @@ std::string replay_json(const Examination& examination);
 /// with the contact points and normals of truth and candidates, and all numbers. Nothing is loaded
 /// from elsewhere.
 std::string replay_page(const Examination& examination, const std::string& description);
+
+/// A page's data with what its script asks of candidates: their marks, which do not run as native
+/// code, and how the program is started so that it knows each. `runs`: how each runs, by name.
+nlohmann::json with_candidates(nlohmann::json data, const std::map<std::string, std::string>& runs);
 
 /// The double nearest to the middle of an enclosure: -2 where bounds of 1e-30 lie about it.
 double nearest_to_middle(const oracle::Enclosure& enclosure);

@@ -201,16 +201,19 @@ json row_json(const ResultRow& row) {
   return result;
 }
 
-json summary_json(const ResultRow& row) {
-  json result = row_json(row);
-  result["pareto"] = row.pareto ? json(*row.pareto) : json(nullptr);
-  result["tied_with"] = row.tied_with;
-  return result;
-}
-
 json to_json(const FailureRate& rate) { return {{"count", rate.count}, {"failed", rate.failed}}; }
 
 }  // namespace
+
+json summary_json(const Report& report) {
+  json rows = json::array();
+  for (const ResultRow& row : report.summary) {
+    json& added = rows.emplace_back(row_json(row));
+    added["pareto"] = row.pareto ? json(*row.pareto) : json(nullptr);
+    added["tied_with"] = row.tied_with;
+  }
+  return rows;
+}
 
 json to_json(const ResultRow& row) {
   json result = row_json(row);
@@ -267,9 +270,8 @@ json to_json(const WorstCase& worst) {
 }
 
 json to_json(const Report& report) {
-  json completed = to_json(report.completed), summary = json::array();
+  json completed = to_json(report.completed);
   completed["timed_classes"] = report.timed_classes;
-  for (const ResultRow& row : report.summary) summary.push_back(summary_json(row));
   json result = {{"schema", report_schema},
                  {"version", report.version},
                  {"command", report.command},
@@ -286,7 +288,7 @@ json to_json(const Report& report) {
                  {"candidates", array_of(report.candidates)},
                  {"classes", array_of(report.classes)},
                  {"results", array_of(report.results)},
-                 {"summary", summary},
+                 {"summary", summary_json(report)},
                  {"factors", array_of(report.factors)},
                  {"contrasts", array_of(report.contrasts)},
                  {"trends", array_of(report.trends)},

@@ -25,6 +25,8 @@ std::string text_by_lines(const nlohmann::json& object);
 
 nlohmann::json to_json(const Machine& machine);
 nlohmann::json to_json(const PoseClassDescription& pose_class);
+/// The member `summary`.
+nlohmann::json summary_json(const Report& report);
 /// An entry of `results`.
 nlohmann::json to_json(const ResultRow& row);
 /// {"id", "configuration", "truth", "answers", "replay"}; without a truth, neither that nor
@@ -51,9 +53,13 @@ void write_report(const Report& report, const std::filesystem::path& folder);
 /// report.html: one self-contained page; nothing is loaded from elsewhere.
 std::string report_page(const Report& report);
 
-/// One self-contained page of the part `engines`: what our contacts change in the engines, and some
-/// of the experiments in motion, without and with them; runs these again. `command` is the command
-/// line that a person would repeat.
-std::string engines_page(const EngineResults& results, const std::string& command);
+/// Some of the experiments in motion, the most striking, without and with our contacts; runs them
+/// again (engine_motions.cpp).
+nlohmann::json engine_motions(const EngineResults& results);
+
+/// One self-contained page of the part `engines`: what our contacts change in the engines, with
+/// these motions. `command` is the command line that a person would repeat.
+std::string engines_page(const EngineResults& results, const std::string& command,
+                         const nlohmann::json& motions);
 
 }  // namespace touchstone

@@ -32,20 +32,20 @@ function changeTable() {
 }
 
 // A chart of each pair, on the same axes.
-function placesOf(rows) {
+function placesOf(summary) {
+  const rows = summary.filter(r => r.class === group);
   return rows.flatMap(r => {
     const base = rows.find(s => s.pair === r.pair && s.candidate === limits.baseline);
     if (!r.nanoseconds || !r.depth_error || !base || !base.nanoseconds) return [];
     const time = limits.baseline === 'bullet' && r.nanoseconds.ratio_to_bullet ||
         r.nanoseconds.median / base.nanoseconds.median;
-    return [{pair: r.pair, candidate: r.candidate, covers: r.covers, x: time, y: Math.max(r.depth_error.p99, 1e-17), front: r.pareto}];
+    return [{pair: r.pair, candidate: r.candidate, covers: coveredOf(rows, r), x: time, y: Math.max(r.depth_error.p99, 1e-17), front: r.pareto}];
   });
 }
 const legend = element('div', {class: 'legend'});
 byId('chart-panels').before(legend);
 function charts() {
-  const here = rows => placesOf(rows.filter(r => r.group === group));
-  const was = here(before), is = here(after), all = [...was, ...is], host = byId('chart-panels');
+  const was = placesOf(before), is = placesOf(after), all = [...was, ...is], host = byId('chart-panels');
   redrawn.length = 0;
   host.replaceChildren();
   if (all.length === 0) return host.append(`No times relative to ${limits.baseline}.`);
@@ -77,6 +77,6 @@ function changeChart(place, pair, was, is, x, y) {
 }
 words();
 changeTable();
-groupControl(byId('groups'), [...new Set([...before, ...after].map(r => r.group))]);
+groupControl(byId('groups'), [...new Set([...before, ...after].map(r => r.class))]);
 keepGrouped(charts);
 listSections();

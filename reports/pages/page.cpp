@@ -69,11 +69,8 @@ void fill(std::string& page, std::string_view placeholder, std::string_view text
   page.replace(page.find(placeholder), placeholder.size(), text);
 }
 
-/// JSON as the page unpacks it. What is not seen in a string becomes text that is, as on a
-/// terminal.
-std::string compressed(const nlohmann::json& json) {
-  const std::string dumped = json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-  const std::string text = escaped(dumped, Printed::lines, "\\\\");
+/// Text as the page unpacks it.
+std::string compressed(std::string_view text) {
   uLongf size = compressBound(text.size());
   std::vector<Bytef> bytes(size);
   compress(bytes.data(), &size, reinterpret_cast<const Bytef*>(text.data()), text.size());
@@ -95,10 +92,11 @@ std::string render_page(Page page, const nlohmann::json& data) {
   fill(text, "/* heading */", parts.heading);
   fill(text, "/* main */", parts.main);
   if (parts.main.find(motion_place) != parts.main.npos) fill(text, motion_place, motion_html);
-  fill(text, "/* vega.js */", parts.charts ? vega_js : std::string_view());
+  fill(text, "/* vega.js */", compressed(parts.charts ? vega_js : std::string_view()));
   fill(text, "/* scripts */", scripts);
-  // Last, so that nothing in it is taken for a placeholder.
-  fill(text, "/* data */", compressed(data));
+  // What is not seen in a string becomes text that is, as on a terminal.
+  const std::string dumped = data.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  fill(text, "/* data */", compressed(escaped(dumped, Printed::lines, "\\\\")));
   return text;
 }
 
@@ -138,16 +136,6 @@ Mark mark_of(std::string_view candidate) {
       candidate.begin(), candidate.end(), std::size_t{0},
       [](std::size_t total, char c) { return total + static_cast<unsigned char>(c); });
   return {other, sum % symbols};
-}
-
-std::map<std::string, std::array<std::size_t, 2>> marks(
-    const std::vector<std::string>& candidates) {
-  std::map<std::string, std::array<std::size_t, 2>> result;
-  for (const auto& name : candidates) {
-    const Mark mark = mark_of(name);
-    result[name] = {mark.colour, mark.symbol};
-  }
-  return result;
 }
 
 nlohmann::json bodies_json(const Scene& scene) {

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <array>
-#include <map>
 #include <span>
 #include <string>
 #include <string_view>
@@ -16,8 +14,8 @@ struct Scene;
 enum class Page { report, comparison, replay, stability, choice, engines };
 
 /// One self-contained HTML file: the shell that all pages share (page.html), filled with a page's
-/// own part, its scripts and its data, compressed. It loads nothing from elsewhere, and no string
-/// of the data can break out of it.
+/// own part, its scripts and, compressed, Vega and its data. It loads nothing from elsewhere, and
+/// no string of the data can break out of it.
 std::string render_page(Page page, const nlohmann::json& data);
 
 /// The mark of a candidate on every page and figure: a colour for each engine, a symbol for each of
@@ -27,9 +25,6 @@ struct Mark {
   std::size_t symbol;  ///< 0 … 5: of `symbols` in page.js
 };
 Mark mark_of(std::string_view candidate);
-
-/// By name the colour and the symbol, for a page's script.
-std::map<std::string, std::array<std::size_t, 2>> marks(const std::vector<std::string>& candidates);
 
 // Motions as pages read them (pages/motion.js):
 

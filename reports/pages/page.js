@@ -88,6 +88,16 @@ const cutShare = share => share === null ? '–' : (Math.floor(share * 100 + 1e-
 const percent = share => share === 1 ? '100%' : (Math.floor(share * 1000 + 1e-6) / 10).toFixed(1) + '%';
 const dashed = pair => pair.replace('-', '–');
 
+// The number of configurations that a candidate has a routine for.
+const supported = r => r.count - (r.outcomes.unsupported || 0);
+// " (4 of 5 pairs)" beside a candidate in a row over all pairs that is over these alone.
+function coveredOf(summary, r) {
+  if (!r || r.pair !== 'all') return '';
+  const ofPairs = summary.filter(s => s.class === r.class && s.candidate === r.candidate && s.pair !== 'all');
+  const covered = ofPairs.filter(supported).length;
+  return covered === ofPairs.length ? '' : ` (${covered} of ${ofPairs.length} pairs)`;
+}
+
 // A command with a button that copies it.
 function command(text) {
   const copy = element('button', {type: 'button'}, 'Copy');

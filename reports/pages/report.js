@@ -1,25 +1,5 @@
 // The report's data, what all sections ask of it, and the findings.
-const report = unpackReport(data);
-
-// Spells out what the page's data only hints at (report_page.cpp).
-function unpackReport(whole) {
-  for (const trend of whole.trends) {
-    trend.bins = trend.bins.map(([decade, count, missed, median, max]) => ({decade, count, missed, median, max}));
-  }
-  const only = (value, name) => value === null ? null : {[name]: value};
-  for (const r of whole.results) {
-    const {outcomes} = r, {pair, class: name} = whole.classes[r.class];
-    Object.assign(r, {pair, class: name, count: 0, outcomes: {}});
-    for (let i = 0; i < outcomes.length; i += 2) {
-      r.outcomes[whole.outcomes[outcomes[i]]] = outcomes[i + 1];
-      r.count += outcomes[i + 1];
-    }
-    for (const [member, name] of [['severity', 'max'], ['depth_error', 'p99'], ['normal_regret', 'p99'], ['coverage', 'mean']]) r[member] = only(r[member], name);
-    r.nanoseconds = r.nanoseconds && {median: r.nanoseconds[0], p95: r.nanoseconds[1]};
-  }
-  return whole;
-}
-
+const report = data;
 const candidates = report.candidates.map(c => c.name);
 showUsual(candidates);
 const pairs = [...new Set(report.classes.map(c => c.pair))];
@@ -30,13 +10,7 @@ const inGroup = r => classGroup.get(`${r.pair}/${r.class}`) === group;
 const summary = () => report.summary.filter(r => r.class === group);
 const summaryOf = (pair, candidate) => summary().find(r => r.pair === pair && r.candidate === candidate);
 const classesOf = pair => report.classes.filter(c => c.pair === pair && c.group === group);
-// " (4 of 5 pairs)" beside a candidate in a row over all pairs that is over these alone.
-function coveredText(r) {
-  if (!r || r.pair !== 'all') return '';
-  const ofPairs = report.summary.filter(s => s.class === r.class && s.candidate === r.candidate && s.pair !== 'all');
-  const covered = ofPairs.filter(supported).length;
-  return covered === ofPairs.length ? '' : ` (${covered} of ${ofPairs.length} pairs)`;
-}
+const coveredText = r => coveredOf(report.summary, r);
 // "box" for "cylinder-box".
 const otherShape = pair => pair.replace('cylinder-', '');
 
@@ -45,8 +19,6 @@ const quantile = (q, which) => q === null ? null : q[which];
 const time = r => r.nanoseconds === null ? null : r.nanoseconds.median;
 const tail = r => r.nanoseconds === null ? null : r.nanoseconds.p95;
 const hasSlowTail = r => tail(r) !== null && tail(r) > 4 * time(r);  // as in timing.hpp
-// The number of configurations that a candidate has a routine for.
-const supported = r => r.count - (r.outcomes.unsupported || 0);
 // Where a candidate was stopped after time-outs, what it was not asked counts against it: it agrees on at least so many.
 const unasked = r => r.outcomes['not-asked'] || 0;
 const agreeing = r => ((r.outcomes.agree || 0) + (r.outcomes.unseen || 0)) / supported(r);

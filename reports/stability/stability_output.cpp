@@ -401,16 +401,10 @@ void write_stability(const Stability& stability, const std::string& command,
   whole["version"] = TOUCHSTONE_VERSION;
   whole["command"] = command;
   write_file(folder / "stability.json", whole.dump() + "\n", "--out");
-  const std::vector<std::string> names = whole["candidates"];
-  whole["marks"] = marks(names);
-  whole["program"] = program_name({});
-  for (const std::string& name : names) {
-    const std::string runs = runs_as(name);
-    if (runs != "native") whole["runs"][name] = runs;
-    const std::string program = program_name({name});
-    if (program != whole["program"]) whole["programs"][name] = program;
-  }
-  write_file(folder / "stability.html", render_page(Page::stability, whole), "--out");
+  std::map<std::string, std::string> runs;
+  for (const std::string& name : stability.candidates) runs[name] = runs_as(name);
+  write_file(folder / "stability.html", render_page(Page::stability, with_candidates(whole, runs)),
+             "--out");
 }
 
 }  // namespace touchstone
