@@ -21,99 +21,37 @@ void collect(json& value, std::vector<json*>& all) {
   }
 }
 
+std::vector<std::string> parts(const std::string& text, char separator) {
+  std::vector<std::string> result;
+  std::istringstream in(text);
+  for (std::string part; std::getline(in, part, separator);) result.push_back(part);
+  return result;
+}
+
 bool is_of_a_number(char c) {
   return std::isdigit(static_cast<unsigned char>(c)) != 0 || c == '.' || c == '-' || c == '+';
 }
 
 }  // namespace
 
-const char* Mutation::nasty() {
-  constexpr const char* tokens[] = {"",
-                                    " ",
-                                    "null",
-                                    "true",
-                                    "\"\"",
-                                    "[]",
-                                    "{}",
-                                    "[[[[[[[[",
-                                    "{\"a\":",
-                                    "}",
-                                    "]",
-                                    ",",
-                                    ":",
-                                    "\"",
-                                    "\\",
-                                    "\\u0000",
-                                    "\\ud800",
-                                    "\xff",
-                                    "\xc3",
-                                    "\xe2\x80\xae",
-                                    "\xef\xbb\xbf",
-                                    "\x1b[2J",
-                                    "NaN",
-                                    "Infinity",
-                                    "/",
-                                    "//",
-                                    "../../x",
-                                    "@",
-                                    "@1e-8/1/4",
-                                    "\r",
-                                    "\n",
-                                    "\t",
-                                    "<",
-                                    "</a>",
-                                    "<!--",
-                                    "&#0;",
-                                    "%s",
-                                    "%n",
-                                    "{}{}",
-                                    "\"0x\"",
-                                    "\"0x1.8p-1z\"",
-                                    "\" 1\"",
-                                    "\"1_0\"",
-                                    "\"\xd9\xa1\"",
-                                    "\"nan\"",
-                                    "\"inf\"",
-                                    "\"1\\u0000\""};
-  return tokens[below(std::size(tokens))];
+const std::string& Mutation::nasty() {
+  static const std::vector<std::string> tokens = parts(
+      "| |null|true|\"\"|[]|{}|[[[[[[[[|{\"a\":|}|]|,|:|\"|\\|\\u0000|\\ud800|\xff|\xc3|"
+      "\xe2\x80\xae|\xef\xbb\xbf|\x1b[2J|NaN|Infinity|/|//|../../x|@|@1e-8/1/4|\r|\n|\t|<|</a>|"
+      "<!--|&#0;|%s|%n|{}{}|\"0x\"|\"0x1.8p-1z\"|\" 1\"|\"1_0\"|\"\xd9\xa1\"|\"nan\"|\"inf\"|"
+      "\"1\\u0000\"",
+      '|');
+  return tokens[below(tokens.size())];
 }
 
-const char* Mutation::extreme_number() {
-  constexpr const char* numbers[] = {"0",
-                                     "-0",
-                                     "1",
-                                     "-1",
-                                     "1e400",
-                                     "-1e400",
-                                     "1e308",
-                                     "-1e308",
-                                     "1e-308",
-                                     "1e-320",
-                                     "5e-324",
-                                     "1e200",
-                                     "1e154",
-                                     "1e-162",
-                                     "1e30",
-                                     "1e-30",
-                                     "1e16",
-                                     "1e-300",
-                                     "255",
-                                     "-128",
-                                     "2147483648",
-                                     "4294967296",
-                                     "9223372036854775807",
-                                     "9223372036854775808",
-                                     "18446744073709551615",
-                                     "18446744073709551616",
-                                     "-9223372036854775809",
-                                     "0.1",
-                                     "1e",
-                                     "01",
-                                     "0x10",
-                                     "+1",
-                                     "1.7976931348623157e308",
-                                     "1.7976931348623159e308"};
-  return numbers[below(std::size(numbers))];
+const std::string& Mutation::extreme_number() {
+  static const std::vector<std::string> numbers = parts(
+      "0 -0 1 -1 1e400 -1e400 1e308 -1e308 1e-308 1e-320 5e-324 1e200 1e154 1e-162 1e30 1e-30 "
+      "1e16 1e-300 255 -128 2147483648 4294967296 9223372036854775807 9223372036854775808 "
+      "18446744073709551615 18446744073709551616 -9223372036854775809 0.1 1e 01 0x10 +1 "
+      "1.7976931348623157e308 1.7976931348623159e308",
+      ' ');
+  return numbers[below(numbers.size())];
 }
 
 std::string Mutation::change_bytes(std::string text) {
@@ -147,9 +85,7 @@ std::string Mutation::change_number(std::string text) {
 }
 
 std::string Mutation::change_lines(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream in(text);
-  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  std::vector<std::string> lines = parts(text, '\n');
   if (lines.empty()) return text + nasty();
   const std::size_t i = below(lines.size()), j = below(lines.size());
   switch (below(4)) {
@@ -210,7 +146,7 @@ std::string Mutation::change_json(const std::string& text) {
       break;
     }
     case 3:
-      value = std::string(nasty());
+      value = nasty();
       break;
     case 4:
       value = json(other);
@@ -223,7 +159,7 @@ std::string Mutation::change_json(const std::string& text) {
       }
       break;
     case 6:
-      if (value.is_object()) value[one_in(2) ? "x" : nasty()] = json(other);
+      if (value.is_object()) value[one_in(2) ? std::string("x") : nasty()] = json(other);
       if (value.is_array()) value.push_back(json(other));
       break;
     default:

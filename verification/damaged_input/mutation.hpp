@@ -25,8 +25,8 @@ class Mutation {
   std::string change_lines(const std::string& text);
   std::string change_json(const std::string& text);
   std::string repeat_member(std::string text);
-  const char* nasty();
-  const char* extreme_number();
+  const std::string& nasty();
+  const std::string& extreme_number();
 
   std::mt19937_64 random_;
 };
