@@ -74,24 +74,6 @@ class HelpFormat : public CLI::Formatter {
 
 using Names = std::vector<std::string>;
 
-Names command_names(const CLI::App& program) {
-  Names names;
-  for (const CLI::App* command : program.get_subcommands({})) names.push_back(command->get_name());
-  return names;
-}
-
-/// Those that may stand after this subcommand, the program's own included.
-std::vector<const CLI::Option*> options_of(const CLI::App& command) {
-  std::vector<const CLI::Option*> options = command.get_options();
-  const CLI::App* const program = command.get_parent();
-  if (program) {
-    for (const CLI::Option* option : program->get_options()) {
-      if (option != program->get_help_ptr()) options.push_back(option);
-    }
-  }
-  return options;
-}
-
 /// CLI11 would only say that a subcommand is required.
 void refuse_unknown_command(const CLI::App& program, int argc, char** argv) {
   if (argc < 2 || argv[1][0] == '-') return;
@@ -204,6 +186,23 @@ class UsageError {
 };
 
 }  // namespace
+
+std::vector<std::string> command_names(const CLI::App& program) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : program.get_subcommands({})) names.push_back(command->get_name());
+  return names;
+}
+
+std::vector<const CLI::Option*> options_of(const CLI::App& command) {
+  std::vector<const CLI::Option*> options = command.get_options();
+  const CLI::App* const program = command.get_parent();
+  if (program) {
+    for (const CLI::Option* option : program->get_options()) {
+      if (option != program->get_help_ptr()) options.push_back(option);
+    }
+  }
+  return options;
+}
 
 Option& Option::required() {
   option_->required();

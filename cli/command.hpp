@@ -129,7 +129,11 @@ void add_classes(Program& program);
 // The program's own description of its commands, in other forms than --help
 // (descriptions.cpp).
 
-/// The manual page, in troff with the man macros.
+std::vector<std::string> command_names(const CLI::App& program);
+/// Those that may stand after this subcommand, the program's own included.
+std::vector<const CLI::Option*> options_of(const CLI::App& command);
+
+/// The manual page, in troff with the man macros, as UTF-8.
 std::string manual(const CLI::App& program);
 
 /// Completion scripts: subcommands, options, their values, files.

@@ -19,49 +19,15 @@ namespace {
 
 // The manual page.
 
-/// troff's name of the UTF-8 character that begins at `at`, which is left on its last byte.
-std::string named_character(const std::string& text, std::size_t& at) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const int following = byte(at) >= 0xF0 ? 3 : byte(at) >= 0xE0 ? 2 : 1;
-  unsigned code = byte(at) & (0x3FU >> following);
-  for (int i = 0; i < following; ++i) code = code << 6 | (byte(++at) & 0x3FU);
-  return fmt::format("\\[u{:04X}]", code);
-}
-
 /// As it stands, whatever it starts with; quotes and hyphens as they are typed in a shell.
 std::string literal(const std::string& text) {
+  static const std::map<char, const char*> typed = {{'\\', "\\e"},  {'-', "\\-"},   {'\'', "\\(aq"},
+                                                    {'`', "\\(ga"}, {'^', "\\(ha"}, {'~', "\\(ti"},
+                                                    {'\n', "\n\\&"}};
   std::string result = text.starts_with('.') || text.starts_with('\'') ? "\\&" : "";
-  for (std::size_t at = 0; at < text.size(); ++at) {
-    const char c = text[at];
-    if (static_cast<unsigned char>(c) >= 0x80) {
-      result += named_character(text, at);
-      continue;
-    }
-    switch (c) {
-      case '\\':
-        result += "\\e";
-        break;
-      case '-':
-        result += "\\-";
-        break;
-      case '\'':
-        result += "\\(aq";
-        break;
-      case '`':
-        result += "\\(ga";
-        break;
-      case '^':
-        result += "\\(ha";
-        break;
-      case '~':
-        result += "\\(ti";
-        break;
-      case '\n':
-        result += "\n\\&";
-        break;
-      default:
-        result += c;
-    }
+  for (const char c : text) {
+    const auto at = typed.find(c);
+    result += at == typed.end() ? std::string(1, c) : at->second;
   }
   return result;
 }
@@ -98,19 +64,10 @@ std::string footer(const CLI::App& app) {
 
 // Completion.
 
-using Options = std::vector<const CLI::Option*>;
-
 /// Of a subcommand and of the program itself, whose options may stand after it too.
-Options named_options(const CLI::App& app) {
-  const auto named = [](const CLI::Option* o) { return o->nonpositional(); };
-  Options options = app.get_options(named);
-  const CLI::App* const parent = app.get_parent();
-  for (const CLI::Option* option : parent ? parent->get_options(named) : Options()) {
-    const bool is_known = std::any_of(options.begin(), options.end(), [&](const auto* o) {
-      return o->get_name() == option->get_name();
-    });
-    if (!is_known) options.push_back(option);
-  }
+std::vector<const CLI::Option*> named_options(const CLI::App& app) {
+  std::vector<const CLI::Option*> options = options_of(app);
+  std::erase_if(options, [](const CLI::Option* o) { return !o->nonpositional(); });
   return options;
 }
 
@@ -167,14 +124,6 @@ std::string all_spellings(const CLI::App& app) {
   std::string text;
   for (const CLI::Option* option : named_options(app)) {
     text += (text.empty() ? "" : " ") + spellings(*option);
-  }
-  return text;
-}
-
-std::string command_names(const CLI::App& program, const char* separator) {
-  std::string text;
-  for (const CLI::App* command : program.get_subcommands({})) {
-    text += (text.empty() ? "" : separator) + command->get_name();
   }
   return text;
 }
@@ -290,8 +239,8 @@ _{0}() {{
 }}
 complete -o default -F _{0} {0}
 )",
-                     program.get_name(), command_names(program, "|"), cases, all_spellings(program),
-                     command_names(program, " "), values);
+                     program.get_name(), fmt::join(command_names(program), "|"), cases,
+                     all_spellings(program), fmt::join(command_names(program), " "), values);
 }
 
 std::string zsh_completion(const CLI::App& program) {

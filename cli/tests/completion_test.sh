@@ -6,7 +6,7 @@
 "$program" --completion bash >"$folder/touchstone.bash"
 "$program" --completion zsh >"$folder/_touchstone"
 grep -q '^\.TH touchstone 1' "$folder/touchstone.1" || failed "the manual page has no title"
-{ groff -man -Tutf8 -ww -z "$folder/touchstone.1" 2>"$folder/warnings" && [ ! -s "$folder/warnings" ]; } ||
+{ groff -k -man -Tutf8 -ww -z "$folder/touchstone.1" 2>"$folder/warnings" && [ ! -s "$folder/warnings" ]; } ||
   failed "groff: $(head -n 3 "$folder/warnings")"
 # shellcheck disable=SC1091
 . "$folder/touchstone.bash" || failed "bash reads no completion"
