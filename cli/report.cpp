@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <memory>
 #include <optional>
+#include <set>
 
 #include "candidates/host/interruption.hpp"
 #include "candidates/host/progress.hpp"
@@ -31,19 +32,17 @@ constexpr std::uint64_t max_answers = 100000000;
 /// many times the count are scored.
 constexpr std::uint64_t usual_count = 20, everyday_times = 5;
 
-/// Parts of a report with the share of its time that each takes about, by what its progress counts.
+/// A part of a report with about the share of its time that it takes, by what its progress counts.
 struct Part {
-  const char* name;
-  std::vector<OverallProgress::Part> shares;
+  std::string name;
+  OverallProgress::Part share;
 };
 const std::vector<Part>& parts() {
-  static const std::vector<Part> all = {
-      {"scores", {{"configurations", 45}}},
-      {"timing", {{"pose classes timed", 20}}},
-      {"stability", {{"poses", 18}}},
-      {"experiments", {{"experiments", 14}}},
-      {"engines", {{"experiments in engines", 6}}},
-  };
+  static const std::vector<Part> all = {{"scores", {"configurations", 45}},
+                                        {"timing", {"pose classes timed", 20}},
+                                        {"stability", {"poses", 18}},
+                                        {"experiments", {"experiments", 14}},
+                                        {"engines", {"experiments in engines", 6}}};
   return all;
 }
 
@@ -55,26 +54,27 @@ struct ReportArguments {
   std::vector<std::string> only;
   std::string out = "out", figures;
 
-  /// Scores always. The parts that are not of single pose classes are left out where some are
-  /// chosen, unless --only names them.
-  bool has(const std::string& part) const {
-    for (const std::string& name : only) {
-      const auto is = [&](const Part& p) { return p.name == name; };
-      if (std::none_of(parts().begin(), parts().end(), is)) {
-        throw InvalidInput("--only", '"' + name + '"',
-                           "must be of scores, timing, stability, experiments, engines");
-      }
+  /// The names of the parts to make: scores always. Those that are not of single pose classes are
+  /// left out where some are chosen, unless --only names them.
+  std::set<std::string> chosen_parts() const {
+    std::set<std::string> chosen(only.begin(), only.end());
+    for (const std::string& name : chosen) {
+      if (std::ranges::find(parts(), name, &Part::name) != parts().end()) continue;
+      throw InvalidInput("--only", '"' + name + '"',
+                         "must be of scores, timing, stability, experiments, engines");
     }
-    if (part == "scores") return true;
-    if (!only.empty()) return std::find(only.begin(), only.end(), part) != only.end();
-    return part == "timing" || !scored.sample.is_narrowed();
+    chosen.insert("scores");
+    if (!only.empty()) return chosen;
+    chosen.insert("timing");
+    if (scored.sample.is_narrowed()) return chosen;
+    for (const Part& part : parts()) chosen.insert(part.name);
+    return chosen;
   }
 
   Campaign campaign() const {
     Campaign c = scored.get();
     if (c.classes.empty()) c.everyday_times = everyday_times;
     c.workers = workers.get();
-    c.is_timed = has("timing");
     const std::uint64_t max_count =
         max_answers /
         std::max<std::uint64_t>(1, cells(c).size() * c.everyday_times * c.candidates.size());
@@ -87,75 +87,73 @@ struct ReportArguments {
     return c;
   }
 
-  ExperimentOptions experiments() const {
-    ExperimentOptions e;
-    for (const Experiment& each : all_experiments()) e.experiments.push_back(&each);
-    e.candidates = scored.candidates.get();
-    e.workers = workers.get();
-    e.limits = scored.candidates.limits();
-    return e;
-  }
-
-  /// Those of the engines that are among the candidates.
-  EngineOptions engines() const {
-    EngineOptions e;
-    e.experiments = engine_experiments();
-    for (const std::string& engine : all_engines()) {
-      // In single precision nothing but rounding would be new.
-      const auto is_it = [&](const Candidate* c) { return c->name == engine; };
-      const auto candidates = scored.candidates.get();
-      if (engine != "bullet-float" && std::any_of(candidates.begin(), candidates.end(), is_it)) {
-        e.engines.push_back(engine);
-      }
-    }
-    e.workers = workers.get();
-    return e;
-  }
-
   /// The command that gives the same report again.
   std::string command_line() const {
     return program_name() + " report" + scored.command_line() +
            (only.empty() ? "" : fmt::format(" --only {}", fmt::join(only, ",")));
   }
-
-  OverallProgress progress() const {
-    std::vector<OverallProgress::Part> shares;
-    for (const Part& part : parts()) {
-      if (has(part.name)) shares.insert(shares.end(), part.shares.begin(), part.shares.end());
-    }
-    return OverallProgress(std::move(shares));
-  }
 };
 
+ExperimentOptions experiments_of(const Campaign& campaign) {
+  ExperimentOptions e;
+  for (const Experiment& each : all_experiments()) e.experiments.push_back(&each);
+  e.candidates = campaign.candidates;
+  e.workers = campaign.workers;
+  e.limits = campaign.limits;
+  return e;
+}
+
+/// In those of the engines that are among the candidates.
+EngineOptions engines_of(const Campaign& campaign) {
+  EngineOptions e;
+  e.experiments = engine_experiments();
+  for (const std::string& engine : all_engines()) {
+    // In single precision nothing but rounding would be new.
+    if (engine == "bullet-float") continue;
+    const auto at = std::ranges::find(campaign.candidates, engine, &Candidate::name);
+    if (at != campaign.candidates.end()) e.engines.push_back(engine);
+  }
+  e.workers = campaign.workers;
+  return e;
+}
+
+OverallProgress progress_of(const std::set<std::string>& chosen) {
+  std::vector<OverallProgress::Part> shares;
+  for (const Part& part : parts()) {
+    if (chosen.contains(part.name)) shares.push_back(part.share);
+  }
+  return OverallProgress(std::move(shares));
+}
+
 int run_report(const ReportArguments& options) {
-  const Campaign campaign = options.campaign();
-  const OutputFolder out(options.out);
+  const std::set<std::string> chosen = options.chosen_parts();
+  Campaign campaign = options.campaign();
+  campaign.is_timed = chosen.contains("timing");
+  const std::string folder = options.out, figures_folder = options.figures;
+  const OutputFolder out(folder);
   std::optional<OutputFolder> figures;
-  if (!options.figures.empty()) {
-    check_figures(options.figures);
-    if (!std::filesystem::equivalent(options.figures, options.out)) {
-      figures.emplace(options.figures, "--figures");
+  if (!figures_folder.empty()) {
+    check_figures(figures_folder);
+    if (!std::filesystem::equivalent(figures_folder, folder)) {
+      figures.emplace(figures_folder, "--figures");
     }
   }
   const Interruption interruption;
-  const OverallProgress progress = options.progress();
+  const OverallProgress progress = progress_of(chosen);
   Report report = make_report(campaign, options.command_line());
   if (report.results.empty()) {
     complain("Interrupted before any pose class was done: there is no report.");
     return interrupted_exit_code();
   }
   const auto start = std::chrono::steady_clock::now();
-  if (options.has("stability") && !interrupted()) {
+  const auto is_next = [&](const char* part) { return chosen.contains(part) && !interrupted(); };
+  if (is_next("stability")) {
     const Study study{campaign.candidates, campaign.bar, campaign.limits, campaign.workers};
     report.stability = measure(brief(study, campaign.pairs, campaign.seed));
   }
-  if (options.has("experiments") && !interrupted()) {
-    report.experiments = run_experiments(options.experiments());
-  }
-  const EngineOptions engines = options.engines();
-  if (options.has("engines") && !engines.engines.empty() && !interrupted()) {
-    report.engines = run_engines(engines);
-  }
+  if (is_next("experiments")) report.experiments = run_experiments(experiments_of(campaign));
+  const EngineOptions engines = engines_of(campaign);
+  if (is_next("engines") && !engines.engines.empty()) report.engines = run_engines(engines);
   report.wall_seconds +=
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   report.partial = report.partial || interrupted();
@@ -165,11 +163,11 @@ int run_report(const ReportArguments& options) {
                          "{}, truth certified to 1e-30 of the larger size, {:.0f} s.",
                          counted(report.configurations, "configuration"), report.wall_seconds));
   if (report.engines) text += '\n' + engines_summary(*report.engines, terminal) + '\n';
-  write_then_print([&] { write_report(report, options.out); }, text);
-  print(fmt::format("Report: {}/report.html, {}/report.json\n", options.out, options.out));
-  if (!options.figures.empty()) {
-    write_figures(report, options.figures);
-    print(fmt::format("Figures: {}\n", options.figures));
+  write_then_print([&] { write_report(report, folder); }, text);
+  print(fmt::format("Report: {0}/report.html, {0}/report.json\n", folder));
+  if (!figures_folder.empty()) {
+    write_figures(report, figures_folder);
+    print(fmt::format("Figures: {}\n", figures_folder));
   }
   return report.partial ? interrupted_exit_code() : 0;
 }
