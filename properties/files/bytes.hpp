@@ -25,7 +25,14 @@ namespace touchstone {
 //   template <class Archive>
 //   void members(Archive& a, Verdict& v) { a(v.value, v.limit, v.time); }
 //
-// A type that is trivially copyable needs none; it must not point to anything.
+// A type that is trivially copyable needs none; it must not point to anything. One that has some
+// is written by them all the same, without the bytes between its members, which mean nothing.
+
+/// Is it written as it lies in memory?
+template <class T, class Archive>
+concept IsRaw = std::is_trivially_copyable_v<T> && !requires(Archive & a, T& x) {
+  members(a, x);
+};
 
 class BytesOut {
  public:
@@ -48,7 +55,7 @@ class BytesOut {
  private:
   template <class T>
   void put(const T& x) {
-    if constexpr (std::is_trivially_copyable_v<T>) {
+    if constexpr (IsRaw<T, BytesOut>) {
       static_assert(!std::is_pointer_v<T> && !std::is_same_v<T, std::string_view>);
       raw(&x, sizeof x);
     } else {
@@ -113,6 +120,7 @@ class BytesIn {
   template <class Container>
   void size(Container& x) {
     const auto size = next<std::size_t>();
+    if (size > rest_.size()) end_too_early();
     if constexpr (std::default_initializable<typename Container::value_type>) {
       x.resize(size);
     } else {
@@ -120,15 +128,19 @@ class BytesIn {
     }
   }
   void raw(void* to, std::size_t size) {
-    if (size > rest_.size()) throw std::logic_error("bytes of a worker end too early");
+    if (size > rest_.size()) end_too_early();
     if (size > 0) std::memcpy(to, rest_.data(), size);
     rest_.remove_prefix(size);
   }
+  /// Has all been read?
+  bool is_at_end() const { return rest_.empty(); }
 
  private:
+  [[noreturn]] static void end_too_early() { throw std::logic_error("bytes end too early"); }
+
   template <class T>
   void get(T& x) {
-    if constexpr (std::is_trivially_copyable_v<T>) {
+    if constexpr (IsRaw<T, BytesIn>) {
       raw(&x, sizeof x);
     } else {
       members(*this, x);
@@ -159,7 +171,7 @@ void members(Archive& a, std::string& x) {
 template <class Archive, class T>
 void members(Archive& a, std::vector<T>& x) {
   a.size(x);
-  if constexpr (std::is_trivially_copyable_v<T>) {
+  if constexpr (IsRaw<T, Archive>) {
     a.raw(x.data(), x.size() * sizeof(T));
   } else {
     for (T& each : x) a(each);
