@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "properties/files/bytes.hpp"
 #include "properties/motions/motion.hpp"
 #include "reports/campaign.hpp"
 #include "reports/stability/stability.hpp"
@@ -47,6 +48,16 @@ struct Measure {
 /// Runs the tasks of all works in the study's workers, and returns what they returned, one work's
 /// after the other's.
 std::vector<std::string> run_in_workers(const Study& study, std::span<const Work> works);
+
+/// What tasks have returned, but for those that were interrupted before.
+template <class Value>
+std::vector<Value> finished(std::span<const std::string> texts) {
+  std::vector<Value> result;
+  for (const std::string& text : texts) {
+    if (!text.empty()) result.push_back(from_bytes<Value>(text));
+  }
+  return result;
+}
 
 template <class Result>
 Result run(const Measure<Result>& measure, const Study& study) {

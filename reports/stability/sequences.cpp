@@ -2,35 +2,21 @@
 #include <cmath>
 
 #include "oracle/judge/hull.hpp"
-#include "properties/files/bytes.hpp"
 #include "reports/stability/measure.hpp"
 #include "reports/stability/step_change.hpp"
 
 namespace touchstone {
 namespace {
 
-/// One motion, as one candidate answered it.
-struct Course {
-  bool is_supported = true;
-  std::optional<double> amplification;
-  std::optional<Sequences::Peak> jump, hull, hull_excess;
-  int points_changed = 0, missed = 0, wrong = 0, unanswered = 0;
-};
-
-/// The truth along a motion: largest changes at one step.
-struct TrueCourse {
-  double displacement = 0, depth = 0, patch = 0;
-};
-
 /// Keeps the first of equal values.
 void raise(std::optional<Sequences::Peak>& peak, const std::optional<double>& value, int step) {
   if (value && !(peak && peak->value >= *value)) peak = {*value, step};
 }
 
-/// `steps`: between these poses.
-Course course(const std::vector<ExaminedPose>& poses, std::vector<Step>& steps, std::size_t k) {
-  Course result;
-  result.is_supported = poses[0].answers[k].score.outcome != Outcome::unsupported;
+/// The course of candidate k. `steps`: between these poses.
+Sequences::Row course(const std::vector<ExaminedPose>& poses, std::vector<Step>& steps,
+                      std::size_t k) {
+  Sequences::Row result;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const PoseAnswer& pose = poses[i].answers[k];
     result.missed += pose.score.outcome == Outcome::missed;
@@ -49,52 +35,37 @@ Course course(const std::vector<ExaminedPose>& poses, std::vector<Step>& steps, 
   return result;
 }
 
-TrueCourse true_course(const std::vector<ExaminedPose>& poses) {
-  TrueCourse result;
+/// The truth along a motion: largest changes at one step.
+void follow_truth(const std::vector<ExaminedPose>& poses, Sequences::Course& course) {
   const double size = smaller_size(poses[0].configuration);
   const auto depth = [](const ExaminedPose& p) { return p.truth.signed_distance.midpoint(); };
   std::vector<oracle::ContactPatch> patches;
   for (const ExaminedPose& pose : poses) patches.push_back(true_patch(pose));
+  const auto raise_to = [&](double& max, double change) { max = std::max(max, change / size); };
   for (std::size_t i = 1; i < poses.size(); ++i) {
     const ExaminedPose &from = poses[i - 1], &to = poses[i];
-    const double displacement = largest_displacement(from.configuration, to.configuration);
-    result.displacement = std::max(result.displacement, displacement / size);
-    result.depth = std::max(result.depth, std::abs(depth(to) - depth(from)) / size);
-    result.patch = std::max(result.patch, movement(patches[i - 1], patches[i]) / size);
+    raise_to(course.displacement, largest_displacement(from.configuration, to.configuration));
+    raise_to(course.true_depth_change, std::abs(depth(to) - depth(from)));
+    raise_to(course.true_patch_movement, movement(patches[i - 1], patches[i]));
   }
-  return result;
 }
 
-/// The truth's course, then those of the candidates in their order.
-std::string follow(const Motion& motion, int steps, std::vector<CandidateProcess>& candidates,
-                   const Bar& bar) {
+Sequences::Course follow(const Motion& motion, int steps, const Study& study,
+                         std::vector<CandidateProcess>& candidates) {
   std::vector<Configuration> asked;
   for (int i = 0; i <= steps; ++i) asked.push_back(pose_at(motion, i, steps));
-  const std::vector<ExaminedPose> poses = examine_poses(asked, candidates, bar);
+  const std::vector<ExaminedPose> poses = examine_poses(asked, candidates, study.bar);
   std::vector<Step> between;
-  for (std::size_t i = 1; i < poses.size(); ++i) between.emplace_back(poses[i - 1], poses[i], bar);
-  std::vector<Course> courses;
-  for (std::size_t k = 0; k < candidates.size(); ++k) courses.push_back(course(poses, between, k));
-  return to_bytes(true_course(poses), courses);
-}
-
-Sequences::Course collected(const Motion& motion, const std::string& bytes,
-                            const std::vector<const Candidate*>& candidates) {
-  BytesIn in(bytes);
-  const auto truth = in.next<TrueCourse>();
-  const auto courses = in.next<std::vector<Course>>();
-  Sequences::Course result{motion.name,
-                           motion.description,
-                           pair_name(pair_of(pose_at(motion, 0, 1))),
-                           truth.displacement,
-                           truth.depth,
-                           truth.patch,
-                           {}};
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    between.emplace_back(poses[i - 1], poses[i], study.bar);
+  }
+  Sequences::Course result{
+      motion.name, motion.description, pair_name(pair_of(asked.front())), 0, 0, 0, {}};
+  follow_truth(poses, result);
   for (std::size_t k = 0; k < candidates.size(); ++k) {
-    const Course& c = courses[k];
-    if (!c.is_supported) continue;
-    result.results.push_back({candidates[k]->name, c.amplification, c.jump, c.hull, c.hull_excess,
-                              c.points_changed, c.missed, c.wrong, c.unanswered});
+    if (poses[0].answers[k].score.outcome == Outcome::unsupported) continue;
+    result.results.push_back(course(poses, between, k));
+    result.results.back().candidate = study.candidates[k]->name;
   }
   return result;
 }
@@ -105,16 +76,11 @@ Measure<Sequences> sequences(const std::vector<const Motion*>& motions, int step
                              const Study& study) {
   return {{motions.size(), static_cast<std::size_t>(steps) + 1,
            [=](std::size_t i) { return "sequence/" + motions[i]->name; },
-           [=, bar = study.bar](std::size_t i, std::vector<CandidateProcess>& candidates) {
-             return follow(*motions[i], steps, candidates, bar);
+           [=](std::size_t i, std::vector<CandidateProcess>& candidates) {
+             return to_bytes(follow(*motions[i], steps, study, candidates));
            }},
-          [=, candidates = study.candidates](std::span<const std::string> texts) {
-            Sequences sequences{steps, {}};
-            for (std::size_t i = 0; i < texts.size(); ++i) {
-              if (texts[i].empty()) continue;  // interrupted before
-              sequences.motions.push_back(collected(*motions[i], texts[i], candidates));
-            }
-            return sequences;
+          [=](std::span<const std::string> texts) {
+            return Sequences{steps, finished<Sequences::Course>(texts)};
           }};
 }
 

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <tuple>
 
 #include "oracle/judge/hull.hpp"
-#include "properties/files/bytes.hpp"
 #include "properties/motions/motion.hpp"
 #include "properties/pose_class.hpp"
 #include "reports/campaign.hpp"
@@ -131,32 +131,20 @@ void raise(Worst& worst, const std::optional<double>& value, std::size_t base, s
   if (value && !(worst.value && *worst.value >= *value)) worst = {value, base, rung};
 }
 
-/// All steps of a cell, as one candidate answered them, or as the truth has it: amplification
-/// alone.
-struct CandidateClimb {
-  bool is_supported = true;
-  ByAmplitude<std::optional<double>> amplification, hull_excess, regret;
-  std::optional<double> jump;
-  ByAmplitude<int> points_changed{}, missed{}, unanswered{};
-  Worst worst_amplification, worst_hull_excess;
-
-  /// Adds a step by its candidate's score after it, and its change.
-  void add(const Score& score, const std::optional<StepChange>& change, std::size_t base,
-           std::size_t rung) {
-    missed[rung] += score.outcome == Outcome::missed;
-    raise(regret[rung], score.normal_regret);
-    if (!change) {
-      ++unanswered[rung];
-      return;
-    }
-    raise(amplification[rung], change->amplification);
-    raise(jump, change->jump);
-    raise(hull_excess[rung], change->hull_excess);
-    points_changed[rung] += change->points_changed;
-    raise(worst_amplification, change->amplification, base, rung);
-    raise(worst_hull_excess, change->hull_excess, base, rung);
+/// Adds a step to a candidate's row by its score after it, and its change.
+void add(Amplification::Row& row, const Score& score, const std::optional<StepChange>& change,
+         std::size_t rung) {
+  row.missed[rung] += score.outcome == Outcome::missed;
+  raise(row.regret[rung], score.normal_regret);
+  if (!change) {
+    ++row.unanswered[rung];
+    return;
   }
-};
+  raise(row.amplification[rung], change->amplification);
+  raise(row.jump, change->jump);
+  raise(row.hull_excess[rung], change->hull_excess);
+  row.points_changed[rung] += change->points_changed;
+}
 
 /// The configurations around which the steps of one cell are made; the number of each is also that
 /// of its perturbations.
@@ -186,71 +174,66 @@ std::vector<Configuration> steps_from(const Bases& bases, std::uint64_t seed) {
   return asked;
 }
 
-/// The truth first, then the candidates in their order. `poses`: those of steps_from, examined.
-std::vector<CandidateClimb> climbs_over(std::span<const ExaminedPose> poses, std::size_t candidates,
-                                        const Bar& bar) {
-  std::vector<CandidateClimb> climbs(1 + candidates);
-  for (std::size_t k = 0; k < candidates; ++k) {
-    climbs[1 + k].is_supported = poses[0].answers[k].score.outcome != Outcome::unsupported;
-  }
-  for (std::size_t i = 0; i < poses.size() / (1 + amplitude_count); ++i) {
+/// What the steps of one cell come to. `poses`: those of steps_from, examined.
+Amplification climbed(const Bases& bases, std::span<const ExaminedPose> poses, std::uint64_t seed,
+                      const Study& study) {
+  Amplification result;
+  result.truth.push_back({bases.pair, bases.pose_class, {}});
+  const std::size_t candidates = study.candidates.size();
+  std::vector<Amplification::Row> rows(candidates);
+  std::vector<Worst> amplification(candidates), hull_excess(candidates);
+  for (std::size_t i = 0; i < bases.subjects.size(); ++i) {
     const ExaminedPose* const from = &poses[i * (1 + amplitude_count)];
     for (std::size_t rung = 0; rung < amplitude_count; ++rung) {
       const ExaminedPose& to = from[1 + rung];
-      Step step(*from, to, bar);
-      raise(climbs[0].amplification[rung], step.true_amplification());
+      Step step(*from, to, study.bar);
+      raise(result.truth[0].amplification[rung], step.true_amplification());
       for (std::size_t k = 0; k < candidates; ++k) {
-        climbs[1 + k].add(to.answers[k].score, step.change(k), i, rung);
+        const auto change = step.change(k);
+        add(rows[k], to.answers[k].score, change, rung);
+        if (!change) continue;
+        raise(amplification[k], change->amplification, i, rung);
+        raise(hull_excess[k], change->hull_excess, i, rung);
       }
     }
   }
-  return climbs;
-}
-
-/// Puts the cells' climbs together; of each candidate and pair it keeps the worst step by each
-/// measure.
-class Collector {
- public:
-  Collector(const Study& study, std::uint64_t seed, std::uint64_t count) : study_(study) {
-    result_.seed = seed;
-    result_.count = count;
-  }
-
-  void add(const Bases& bases, const std::vector<CandidateClimb>& climbs) {
-    result_.truth.push_back({bases.pair, bases.pose_class, climbs[0].amplification});
-    for (std::size_t k = 0; k < study_.candidates.size(); ++k) {
-      const CandidateClimb& c = climbs[1 + k];
-      if (!c.is_supported) continue;
-      const std::string& candidate = study_.candidates[k]->name;
-      result_.results.push_back({bases.pair, bases.pose_class, candidate, c.amplification,
-                                 c.hull_excess, c.regret, c.jump, c.points_changed, c.missed,
-                                 c.unanswered});
-      add_worst(bases, candidate, "amplification", c.worst_amplification);
-      add_worst(bases, candidate, "hull_excess", c.worst_hull_excess);
+  for (std::size_t k = 0; k < candidates; ++k) {
+    if (poses[0].answers[k].score.outcome == Outcome::unsupported) continue;
+    const std::string& candidate = study.candidates[k]->name;
+    rows[k].pair = bases.pair;
+    rows[k].pose_class = bases.pose_class;
+    rows[k].candidate = candidate;
+    result.results.push_back(std::move(rows[k]));
+    for (const auto& [measure, worst] : {std::pair("amplification", &amplification[k]),
+                                         std::pair("hull_excess", &hull_excess[k])}) {
+      if (worst->value.value_or(0) == 0) continue;
+      const std::string& name = bases.subjects[worst->base].name;
+      const Perturbation step{amplitude(worst->rung), seed, worst->base};
+      result.worst.push_back({bases.pair, bases.pose_class, candidate, measure, *worst->value, name,
+                              perturbed_name(name, step)});
     }
   }
+  return result;
+}
 
-  Amplification result() && {
-    for (auto& [key, step] : worst_) result_.worst.push_back(std::move(step));
-    return std::move(result_);
+/// Puts the cells' parts together; of each candidate and pair it keeps the worst step by each
+/// measure.
+Amplification together(std::vector<Amplification> parts, std::uint64_t seed, std::uint64_t count) {
+  Amplification result;
+  result.seed = seed;
+  result.count = count;
+  std::map<std::tuple<std::string, std::string, std::string>, Amplification::WorstStep> worst;
+  for (Amplification& part : parts) {
+    std::ranges::move(part.truth, std::back_inserter(result.truth));
+    std::ranges::move(part.results, std::back_inserter(result.results));
+    for (Amplification::WorstStep& step : part.worst) {
+      const auto [at, is_new] = worst.try_emplace({step.candidate, step.pair, step.measure}, step);
+      if (!is_new && step.value > at->second.value) at->second = step;
+    }
   }
-
- private:
-  void add_worst(const Bases& bases, const std::string& candidate, const char* measure,
-                 const Worst& worst) {
-    if (worst.value.value_or(0) == 0) return;
-    const auto [at, is_new] = worst_.try_emplace({candidate, bases.pair, measure});
-    if (!is_new && at->second.value >= *worst.value) return;
-    const std::string& from = bases.subjects[worst.base].name;
-    const Perturbation step{amplitude(worst.rung), result_.seed, worst.base};
-    at->second = {bases.pair, bases.pose_class,          candidate, measure, *worst.value,
-                  from,       perturbed_name(from, step)};
-  }
-
-  const Study& study_;
-  Amplification result_;
-  std::map<std::tuple<std::string, std::string, std::string>, Amplification::WorstStep> worst_;
-};
+  for (auto& [key, step] : worst) result.worst.push_back(std::move(step));
+  return result;
+}
 
 }  // namespace
 
@@ -280,30 +263,23 @@ Measure<Amplification> amplification(const Ladder& ladder, const Study& study) {
              return fmt::format("{}/{} to {}/{}", pair_name(all.front().pair), all.front().name(),
                                 pair_name(all.back().pair), all.back().name());
            },
-           [=, bar = study.bar](std::size_t task, std::vector<CandidateProcess>& candidates) {
+           [=](std::size_t task, std::vector<CandidateProcess>& candidates) {
+             std::vector<Bases> bases;
              std::vector<Configuration> asked;
              for (const PoseClass& cell : of_task(task)) {
-               for (Configuration& c : steps_from(bases_of(cell, ladder), ladder.seed)) {
-                 asked.push_back(std::move(c));
-               }
+               bases.push_back(bases_of(cell, ladder));
+               std::ranges::move(steps_from(bases.back(), ladder.seed), std::back_inserter(asked));
              }
-             const std::vector<ExaminedPose> poses = examine_poses(asked, candidates, bar);
-             BytesOut bytes;
-             for (std::size_t at = 0; at < poses.size(); at += of_cell) {
-               bytes(climbs_over(std::span(poses).subspan(at, of_cell), candidates.size(), bar));
+             const std::vector<ExaminedPose> poses = examine_poses(asked, candidates, study.bar);
+             std::vector<Amplification> parts;
+             for (std::size_t i = 0; i < bases.size(); ++i) {
+               const auto of_bases = std::span(poses).subspan(i * of_cell, of_cell);
+               parts.push_back(climbed(bases[i], of_bases, ladder.seed, study));
              }
-             return bytes.take();
+             return to_bytes(together(std::move(parts), ladder.seed, ladder.count));
            }},
           [=](std::span<const std::string> texts) {
-            Collector collector(study, ladder.seed, ladder.count);
-            for (std::size_t task = 0; task < texts.size(); ++task) {
-              if (texts[task].empty()) continue;  // interrupted before
-              BytesIn bytes(texts[task]);
-              for (const PoseClass& cell : of_task(task)) {
-                collector.add(bases_of(cell, ladder), bytes.next<std::vector<CandidateClimb>>());
-              }
-            }
-            return std::move(collector).result();
+            return together(finished<Amplification>(texts), ladder.seed, ladder.count);
           }};
 }
 
@@ -313,9 +289,7 @@ Amplification amplification(const Subject& base, std::uint64_t seed, std::uint64
                     std::vector<Subject>(count, base)};
   auto candidates = start(study.candidates, study.bar.threshold, study.limits);
   const auto poses = examine_poses(steps_from(bases, seed), candidates, study.bar);
-  Collector collector(study, seed, count);
-  collector.add(bases, climbs_over(poses, candidates.size(), study.bar));
-  return std::move(collector).result();
+  return together({climbed(bases, poses, seed, study)}, seed, count);
 }
 
 }  // namespace touchstone
