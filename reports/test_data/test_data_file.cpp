@@ -25,30 +25,6 @@
 namespace touchstone {
 namespace {
 
-/// NumPy's file of named arrays, which numpy.load reads: an archive in the ZIP format, not
-/// compressed, of .npy files (numpy.lib.format, version 1.0; PKWARE's APPNOTE, 4.3).
-class NpzFile {
- public:
-  // The array of that name, made at the first use, to which values are appended.
-
-  std::vector<std::string>& texts(const std::string& name);      ///< ASCII, one dimension
-  std::vector<std::int64_t>& integers(const std::string& name);  ///< one dimension
-  /// One dimension if `width` is 1, otherwise rows of so many values.
-  std::vector<double>& doubles(const std::string& name, std::size_t width = 1);
-
-  /// The whole file. Throws InvalidInput (field "--count") beyond the 4 GiB of the ZIP format.
-  std::string bytes() const;
-
- private:
-  struct Array {
-    std::variant<std::vector<std::string>, std::vector<std::int64_t>, std::vector<double>> values;
-    std::size_t width = 1;
-  };
-  static std::string npy(const Array& array);
-
-  std::map<std::string, Array> arrays_;
-};
-
 static_assert(std::endian::native == std::endian::little);  // as all numbers of both formats
 
 template <class... Numbers>
@@ -57,6 +33,9 @@ std::string little_endian(Numbers... numbers) {
   (bytes.append(reinterpret_cast<const char*>(&numbers), sizeof numbers), ...);
   return bytes;
 }
+
+using Values =
+    std::variant<std::vector<std::string>, std::vector<std::int64_t>, std::vector<double>>;
 
 /// The type and the bytes of an array's values.
 struct Data {
@@ -99,61 +78,6 @@ std::string description(const std::string& name, std::string_view content) {
   return little_endian(version, flags, stored, time, date,
                        static_cast<std::uint32_t>(checksum.checksum()), size, size,
                        static_cast<std::uint16_t>(name.size()), extra);
-}
-
-std::vector<std::string>& NpzFile::texts(const std::string& name) {
-  auto [entry, is_new] = arrays_.try_emplace(name, Array{std::vector<std::string>()});
-  return std::get<std::vector<std::string>>(entry->second.values);
-}
-
-std::vector<std::int64_t>& NpzFile::integers(const std::string& name) {
-  auto [entry, is_new] = arrays_.try_emplace(name, Array{std::vector<std::int64_t>()});
-  return std::get<std::vector<std::int64_t>>(entry->second.values);
-}
-
-std::vector<double>& NpzFile::doubles(const std::string& name, std::size_t width) {
-  auto [entry, is_new] = arrays_.try_emplace(name, Array{std::vector<double>(), width});
-  return std::get<std::vector<double>>(entry->second.values);
-}
-
-std::string NpzFile::npy(const Array& array) {
-  const auto [type, bytes, count] = std::visit(ToData(), array.values);
-  const std::string shape = array.width == 1
-                                ? fmt::format("{},", count)
-                                : fmt::format("{}, {}", count / array.width, array.width);
-  std::string header =
-      fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}), }}", type, shape);
-  // Blanks and a line feed, so that the values begin at a multiple of 64 bytes.
-  constexpr std::size_t before = 10, alignment = 64;
-  header.append(alignment - 1 - (before + header.size()) % alignment, ' ');
-  header += '\n';
-  return "\x93NUMPY\x01" + std::string(1, '\0') +
-         little_endian(static_cast<std::uint16_t>(header.size())) + header + bytes;
-}
-
-std::string NpzFile::bytes() const {
-  constexpr std::size_t max_size = std::numeric_limits<std::uint32_t>::max();
-  std::string files, directory;
-  for (const auto& [array_name, array] : arrays_) {
-    const std::string name = array_name + ".npy", content = npy(array);
-    if (files.size() + content.size() + 4096 + directory.size() > max_size) {
-      throw InvalidInput("--count", "more than 4 GiB of arrays",
-                         "must be smaller for this format; csv and jsonl have no bound");
-    }
-    const std::string described = description(name, content);
-    constexpr std::uint16_t made_by = 20, no_comment = 0, disk = 0, attributes = 0;
-    constexpr std::uint32_t external_attributes = 0;
-    directory += "PK\x01\x02" + little_endian(made_by) + described +
-                 little_endian(no_comment, disk, attributes, external_attributes,
-                               static_cast<std::uint32_t>(files.size())) +
-                 name;
-    files += "PK\x03\x04" + described + name + content;
-  }
-  const auto count = static_cast<std::uint16_t>(arrays_.size());
-  constexpr std::uint16_t disk = 0, no_comment = 0;
-  return files + directory + "PK\x05\x06" +
-         little_endian(disk, disk, count, count, static_cast<std::uint32_t>(directory.size()),
-                       static_cast<std::uint32_t>(files.size()), no_comment);
 }
 
 using nlohmann::json;
@@ -313,46 +237,102 @@ class CsvWriter : public TestDataWriter {
   bool has_header_ = false;
 };
 
-/// Arrays that grow by one entry with each datum; those of lists by one for each normal, where
-/// `first_normal` says which belong to which datum.
-class Arrays {
+/// NumPy's file of named arrays, which numpy.load reads: an archive in the ZIP format, not
+/// compressed, of .npy files (numpy.lib.format, version 1.0; PKWARE's APPNOTE, 4.3). Its arrays
+/// grow by one entry with each datum; those of lists by one for each normal, where `first_normal`
+/// says which belong to which datum.
+class NpzFile {
  public:
-  void text(const std::string& name, const std::string& value) {
-    file_.texts(name).push_back(value);
-  }
+  void text(const std::string& name, const std::string& value) { texts(name, {value}); }
   void numbers(const std::string& name, const std::string& letters,
                const std::vector<double>& values) {
     vectors(name, std::max<std::size_t>(1, letters.size()), values);
   }
   void lists_of(std::size_t count) {
-    auto& first = file_.integers("first_normal");
+    auto& first = array<std::int64_t>("first_normal");
     if (first.empty()) first.push_back(0);
     first.push_back(first.back() + static_cast<std::int64_t>(count));
   }
+  /// ASCII.
   void texts(const std::string& name, const std::vector<std::string>& values) {
-    auto& all = file_.texts(name);
+    auto& all = array<std::string>(name);
     all.insert(all.end(), values.begin(), values.end());
   }
   void vectors(const std::string& name, std::size_t width, const std::vector<double>& values) {
-    auto& all = file_.doubles(name, width);
+    auto& all = array<double>(name, width);
     all.insert(all.end(), values.begin(), values.end());
   }
-  const NpzFile& file() const { return file_; }
+
+  /// The whole file. Throws InvalidInput (field "--count") beyond the 4 GiB of the ZIP format.
+  std::string bytes() const;
 
  private:
-  NpzFile file_;
+  /// One dimension if `width` is 1, otherwise rows of so many values.
+  struct Array {
+    Values values;
+    std::size_t width;
+  };
+  /// The array of that name, made at the first use.
+  template <class Value>
+  std::vector<Value>& array(const std::string& name, std::size_t width = 1) {
+    auto [entry, is_new] = arrays_.try_emplace(name, Array{std::vector<Value>(), width});
+    return std::get<std::vector<Value>>(entry->second.values);
+  }
+  static std::string npy(const Array& array);
+
+  std::map<std::string, Array> arrays_;
 };
+
+std::string NpzFile::npy(const Array& array) {
+  const auto [type, bytes, count] = std::visit(ToData(), array.values);
+  const std::string shape = array.width == 1
+                                ? fmt::format("{},", count)
+                                : fmt::format("{}, {}", count / array.width, array.width);
+  std::string header =
+      fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}), }}", type, shape);
+  // Blanks and a line feed, so that the values begin at a multiple of 64 bytes.
+  constexpr std::size_t before = 10, alignment = 64;
+  header.append(alignment - 1 - (before + header.size()) % alignment, ' ');
+  header += '\n';
+  return "\x93NUMPY\x01" + std::string(1, '\0') +
+         little_endian(static_cast<std::uint16_t>(header.size())) + header + bytes;
+}
+
+std::string NpzFile::bytes() const {
+  constexpr std::size_t max_size = std::numeric_limits<std::uint32_t>::max();
+  std::string files, directory;
+  for (const auto& [array_name, array] : arrays_) {
+    const std::string name = array_name + ".npy", content = npy(array);
+    if (files.size() + content.size() + 4096 + directory.size() > max_size) {
+      throw InvalidInput("--count", "more than 4 GiB of arrays",
+                         "must be smaller for this format; csv and jsonl have no bound");
+    }
+    const std::string described = description(name, content);
+    constexpr std::uint16_t made_by = 20, no_comment = 0, disk = 0, attributes = 0;
+    constexpr std::uint32_t external_attributes = 0;
+    directory += "PK\x01\x02" + little_endian(made_by) + described +
+                 little_endian(no_comment, disk, attributes, external_attributes,
+                               static_cast<std::uint32_t>(files.size())) +
+                 name;
+    files += "PK\x03\x04" + described + name + content;
+  }
+  const auto count = static_cast<std::uint16_t>(arrays_.size());
+  constexpr std::uint16_t disk = 0, no_comment = 0;
+  return files + directory + "PK\x05\x06" +
+         little_endian(disk, disk, count, count, static_cast<std::uint32_t>(directory.size()),
+                       static_cast<std::uint32_t>(files.size()), no_comment);
+}
 
 class NumPyWriter : public TestDataWriter {
  public:
   std::string add(const TestDatum& d) override {
-    put_fields(d, CsvColumns::all, arrays_);
+    put_fields(d, CsvColumns::all, file_);
     return {};
   }
-  std::string finish() override { return arrays_.file().bytes(); }
+  std::string finish() override { return file_.bytes(); }
 
  private:
-  Arrays arrays_;
+  NpzFile file_;
 };
 
 }  // namespace
