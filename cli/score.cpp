@@ -9,7 +9,6 @@
 #include "cli/options.hpp"
 #include "properties/files/disk.hpp"
 #include "reference/invalid_input.hpp"
-#include "reports/make_report.hpp"
 #include "reports/replay.hpp"
 #include "reports/report_json.hpp"
 #include "reports/terminal.hpp"
@@ -104,15 +103,9 @@ int run_score(const ScoreArguments& options) {
                        "\"cylinder-box/rim-face/1/0\", \"status\": \"none\"}; docs/suite.md "
                        "says more");
   }
-  Campaign campaign;
-  campaign.given = &read_ones.answers;
-  campaign.candidates = {&read_ones.answers.candidate};
-  campaign.seed = read_ones.seed;
-  campaign.bar = options.bar.get();
-  campaign.workers = options.workers.get();
-
   const Interruption interruption;
-  const Report report = make_report(campaign, options.command_line());
+  const Report report = report_of(read_ones.answers, read_ones.seed, options.bar.get(),
+                                  options.workers.get(), options.command_line());
   if (report.results.empty()) {
     complain("Interrupted before any pose class was done: there is no report.");
     return interrupted_exit_code();

@@ -7,22 +7,8 @@
 
 namespace touchstone {
 
-Answer GivenAnswer::answer() const {
-  Answer result{};
-  result.status = status;
-  result.signed_distance = signed_distance;
-  for (int i = 0; i < 3; ++i) result.normal[i] = normal[i];
-  result.point_count = static_cast<int>(points.size());
-  std::copy(points.begin(), points.end(), result.points);
-  return result;
-}
-
 std::vector<PoseClass> cells(const Campaign& campaign) {
   std::vector<PoseClass> result;
-  if (campaign.given) {
-    for (const auto& of_cell : campaign.given->cells) result.push_back(of_cell.cell);
-    return result;
-  }
   const ClassSelection wanted{campaign.classes, campaign.groups, campaign.coverage};
   check_pose_classes(campaign.pairs, campaign.classes);
   check_groups(campaign.pairs, wanted);
@@ -34,24 +20,10 @@ std::vector<PoseClass> cells(const Campaign& campaign) {
 }
 
 std::uint64_t count_of(const Campaign& campaign, const PoseClass& cell) {
-  if (campaign.given) return answers_in(*campaign.given, cell).size();
   const Group group = cell.group();
   const bool everyday = group == Group::everyday || group == Group::recorded;
   const bool aligned = cell.modifiers.count() == 1 && cell.modifiers.frame() == Frame::aligned;
   return campaign.count * (everyday || aligned ? campaign.everyday_times : 1);
-}
-
-Configuration answered_configuration(const Campaign& campaign, const PoseClass& cell,
-                                     const GivenAnswer& answer) {
-  return answer.configuration ? *answer.configuration
-                              : make_configuration({cell, campaign.seed, answer.index});
-}
-
-const std::vector<GivenAnswer>& answers_in(const GivenAnswers& given, const PoseClass& cell) {
-  const auto found =
-      std::find_if(given.cells.begin(), given.cells.end(),
-                   [&](const GivenAnswers::OfCell& of_cell) { return of_cell.cell == cell; });
-  return found->answers;
 }
 
 std::vector<Answer> answers_until_stopped(

@@ -14,39 +14,13 @@
 
 namespace touchstone {
 
-/// An answer that was computed elsewhere; smaller than an Answer, for there may be a million.
-struct GivenAnswer {
-  std::string id;
-  std::uint64_t index;  ///< of the identity; in the class "given", of the configuration in its file
-  std::optional<Configuration> configuration;  ///< absent: the identity's
-  ts_status status;
-  double signed_distance;
-  Vec3 normal;
-  std::vector<ts_point> points;
-
-  Answer answer() const;
-};
-
-/// Answers that were computed elsewhere, to be scored like those of a candidate that is asked.
-struct GivenAnswers {
-  struct OfCell {
-    PoseClass cell;
-    std::vector<GivenAnswer> answers;  ///< no two with the same index
-  };
-  Candidate candidate;  ///< what is said of it: name, version, settings
-  std::vector<OfCell> cells;
-};
-
-/// Precondition: the cell is one of theirs.
-const std::vector<GivenAnswer>& answers_in(const GivenAnswers& given, const PoseClass& cell);
-
 /// Which configurations are scored, by whom, and how strictly.
 struct Campaign {
-  std::vector<Pair> pairs;
-  std::vector<std::string> classes;  ///< empty: all; else each must be a class of one of the pairs
-  std::vector<Group> groups;         ///< empty: all
+  std::vector<Pair> pairs = {};
+  std::vector<std::string> classes = {};  ///< empty: all; else each must be of one of the pairs
+  std::vector<Group> groups = {};         ///< empty: all
   Coverage coverage = Coverage::pairs;
-  std::vector<const Candidate*> candidates;
+  std::vector<const Candidate*> candidates = {};
   std::uint64_t count = 100;  ///< configurations of each pair × class
   bool is_timed = true;       ///< are answers timed in a report?
   /// As many of a class of the everyday and recorded groups and of arrangements along the world's
@@ -54,20 +28,14 @@ struct Campaign {
   std::uint64_t everyday_times = 1;
   std::uint64_t seed = 1;
   unsigned workers = 1;
-  Bar bar;
-  Limits limits;  ///< of each candidate on one configuration
-  /// Scored instead: pairs, classes, groups and counts are then those of these answers, and the
-  /// only candidate is theirs.
-  const GivenAnswers* given = nullptr;
+  Bar bar = {};
+  Limits limits = {};  ///< of each candidate on one configuration
 };
 
 /// Lists the classes of all pairs in report order: the campaign's cells. Throws InvalidInput when a
 /// class belongs to none of the pairs.
 std::vector<PoseClass> cells(const Campaign& campaign);
 std::uint64_t count_of(const Campaign& campaign, const PoseClass& cell);
-/// Precondition: the answer is one of the cell's in `given`.
-Configuration answered_configuration(const Campaign& campaign, const PoseClass& cell,
-                                     const GivenAnswer& answer);
 
 /// Width of every truth that a score is against, relative to the larger size.
 inline constexpr double truth_width = 1e-30;

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <fmt/format.h>
 #include <fstream>
+#include <numeric>
 #include <span>
 #include <string>
 #include <sys/utsname.h>
@@ -11,17 +12,11 @@
 #include <utility>
 
 #include "candidates/host/interruption.hpp"
-#include "candidates/host/progress.hpp"
 #include "properties/identity.hpp"
-#include "properties/numbers.hpp"
-#include "properties/stable_hash.hpp"
 #include "reports/covered_pairs.hpp"
 #include "reports/factors.hpp"
-#include "reports/replay.hpp"
-#include "reports/sampler.hpp"
 #include "reports/statistics.hpp"
 #include "reports/tally.hpp"
-#include "reports/timing.hpp"
 
 namespace touchstone {
 
@@ -56,80 +51,19 @@ PoseClassDescription description_of(const PoseClass& cell) {
 
 namespace {
 
-/// A number made from those of a configuration.
-std::uint64_t hash_of(const Configuration& configuration) {
-  Numbers numbers = numbers_of(configuration);
-  std::string bytes;
-  for (const double* number : every_number(numbers)) {
-    const double x = *number + 0.0;  // zeros of either sign are equal
-    bytes.append(reinterpret_cast<const char*>(&x), sizeof x);
-  }
-  return stable_hash(bytes);
+std::vector<std::string> names_of(const std::vector<CandidateDescription>& candidates) {
+  std::vector<std::string> names;
+  for (const CandidateDescription& c : candidates) names.push_back(c.name);
+  return names;
 }
 
-/// What tells the configurations of given answers from others, in whatever order they are; empty
-/// where they are the first of their class, as in a report of candidates that are asked.
-std::string digest_of(const Campaign& campaign, const PoseClass& cell) {
-  if (!campaign.given) return "";
-  const std::vector<GivenAnswer>& answers = answers_in(*campaign.given, cell);
-  if (cell.group() != Group::given && answers.back().index == answers.size() - 1) return "";
-  std::uint64_t sum = 0;
-  for (const GivenAnswer& answer : answers) {
-    sum += hash_of(answered_configuration(campaign, cell, answer));
-  }
-  return fmt::format("{:016x}", sum);
-}
-
-/// What is known of each cell; absent where the run was interrupted before all of it was scored.
-std::vector<std::optional<Sample>> sample_cells(const Campaign& campaign,
-                                                const std::vector<PoseClass>& cells) {
-  std::vector<Unit> units;
-  std::uint64_t configurations = 0;
-  for (std::size_t cell = 0; cell < cells.size(); ++cell) {
-    const EqualUnits cut{count_of(campaign, cells[cell])};
-    for (std::uint64_t n = 0; n < cut.units(); ++n) units.push_back(cut.unit(cell, n));
-    configurations += cut.count;
-  }
-  std::vector<std::optional<Sample>> parts(units.size());
-  Progress progress("configurations", configurations);
-  std::uint64_t done = 0;
-  const std::vector<UnitRun> runs = runs_of(units, run_size);
-  std::vector<std::size_t> first_of_run;
-  for (std::size_t unit = 0; const UnitRun& run : runs) {
-    first_of_run.push_back(unit);
-    unit += run.size();
-  }
-  sample(
-      campaign, Purpose::report, runs.size(), [&](std::uint64_t number) { return runs[number]; },
-      [&](std::uint64_t number, std::vector<Sample> samples) {
-        for (std::size_t i = 0; i < samples.size(); ++i) {
-          parts[first_of_run[number] + i] = std::move(samples[i]);
-          const Unit& unit = runs[number][i];
-          done += unit.last - unit.first;
-        }
-        progress.update(done);
-      },
-      [] { return !interrupted(); });
-
-  std::vector<std::optional<Sample>> result(cells.size());
-  for (std::size_t first = 0, last = 0; first < units.size(); first = last) {
-    while (last < units.size() && units[last].cell == units[first].cell) ++last;
-    const std::span of_cell = std::span(parts).subspan(first, last - first);
-    if (!std::all_of(of_cell.begin(), of_cell.end(), [](const auto& part) { return !!part; })) {
-      continue;
-    }
-    auto& whole = result[units[first].cell];
-    whole = std::move(of_cell.front());
-    for (const auto& part : of_cell.subspan(1)) whole->add(*part);
-  }
-  return result;
-}
-
-std::optional<QueryTime> time_of(const Campaign& campaign, const Times& times,
+std::optional<QueryTime> time_of(const std::vector<std::string>& names, const Times& times,
                                  const std::vector<std::size_t>& cells, std::size_t k) {
+  if (times.empty()) return std::nullopt;
   auto time = query_time(times, cells, k);
-  for (std::size_t b = 0; time && b < campaign.candidates.size(); ++b) {
-    if (campaign.candidates[b]->name != "bullet") continue;
+  const auto bullet = std::find(names.begin(), names.end(), "bullet");
+  if (time && bullet != names.end()) {
+    const auto b = static_cast<std::size_t>(bullet - names.begin());
     time->ratio_to_bullet = time_ratio(times, cells, k, b);
   }
   return time;
@@ -137,91 +71,73 @@ std::optional<QueryTime> time_of(const Campaign& campaign, const Times& times,
 
 /// Rows of all candidates on these cells together. `pair` and `pose_class` are what the rows are
 /// called by.
-std::vector<ResultRow> rows_of(const Campaign& campaign,
-                               const std::vector<std::optional<Sample>>& samples,
-                               const Times& times, const std::vector<std::size_t>& cells,
-                               const std::string& pair, const std::string& pose_class) {
+std::vector<ResultRow> rows_of(const std::vector<std::string>& names, const Scored& scored,
+                               const std::vector<std::size_t>& cells, const std::string& pair,
+                               const std::string& pose_class) {
   std::vector<ResultRow> rows;
-  for (std::size_t k = 0; k < campaign.candidates.size(); ++k) {
-    ScoreTally tally(Precision::exact);
-    for (const std::size_t cell : cells) tally.add(samples[cell]->tallies[k]);
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    const auto part = [&](std::size_t i) { return scored.samples[cells[i]]->tallies[k]; };
     ResultRow& row = rows.emplace_back();
     row.pair = pair;
     row.pose_class = pose_class;
-    row.candidate = campaign.candidates[k]->name;
-    row.statistics = tally.statistics();
-    row.time = time_of(campaign, times, cells, k);
+    row.candidate = names[k];
+    row.statistics = sum_of(0, cells.size(), part).statistics();
+    row.time = time_of(names, scored.times, cells, k);
   }
   return rows;
 }
 
-std::vector<Trend> trends_of(const Campaign& campaign,
-                             const std::vector<std::optional<Sample>>& samples,
-                             const std::vector<Heading>& all) {
-  std::vector<std::string> names;
-  for (const Candidate* c : campaign.candidates) names.push_back(c->name);
-  std::vector<Trend> result;
-  for (const Heading& heading : all) {
-    if (heading.pair == "all") continue;
-    TrendTally tally;
-    for (const std::size_t cell : heading.cells) tally.add(samples[cell]->trends);
-    const auto trends = tally.trends(heading.pair, group_name(heading.group), names);
-    result.insert(result.end(), trends.begin(), trends.end());
+/// Trends under a heading.
+std::vector<Trend> trends_of(const std::vector<std::string>& names, const Scored& scored,
+                             const Heading& heading) {
+  const auto part = [&](std::size_t i) { return scored.samples[heading.cells[i]]->trends; };
+  return sum_of(0, heading.cells.size(), part)
+      .trends(heading.pair, group_name(heading.group), names);
+}
+
+/// A case of one candidate, with its answer and that of the first candidate where they were kept.
+WorstCase worst_case(const std::vector<std::string>& names, const Scored& scored,
+                     std::uint64_t seed, const Case& c, std::size_t candidate) {
+  const PoseClass& cell = scored.cells[c.cell];
+  const Identity identity{cell, seed, c.index};
+  const auto examined = scored.samples[c.cell]->examined(candidate, c.index);
+  WorstCase result{pair_name(cell.pair),
+                   group_name(cell.group()),
+                   cell.name(),
+                   names[candidate],
+                   c.score,
+                   {scored.name(identity),
+                    examined ? examined->configuration : make_configuration(identity),
+                    std::nullopt,
+                    {},
+                    ""}};
+  std::vector<std::string> asked = {names[candidate]};
+  if (examined) {
+    result.score = examined->answers.front().second;
+    result.examination.truth = examined->truth;
+    std::size_t shown = candidate;
+    for (const auto& [answer, score] : examined->answers) {
+      result.examination.answers.push_back({names[shown], answer, score});
+      shown = 0;  // the other one is the first candidate's
+    }
+    if (examined->answers.size() > 1) asked.insert(asked.begin(), names.front());
   }
+  result.examination.replay = scored.replay(identity, asked);
   return result;
 }
 
-/// The id of a configuration that came in a file with others; otherwise its identity.
-std::string name_of(const Campaign& campaign, const Identity& identity) {
-  if (identity.pose_class.group() != Group::given) return to_string(identity);
-  const auto& answers = answers_in(*campaign.given, identity.pose_class);
-  return std::find_if(answers.begin(), answers.end(),
-                      [&](const GivenAnswer& a) { return a.index == identity.index; })
-      ->id;
-}
-
-WorstCase worst_case(const Campaign& campaign, const Sample& sample, const Identity& identity,
-                     std::size_t candidate) {
-  auto [configuration, truth, answers] = sample.examined(candidate, identity.index);
-  const std::string id = name_of(campaign, identity);
-  std::vector<std::string> names = {campaign.candidates[candidate]->name};
-  if (answers.size() > 1) names.insert(names.begin(), campaign.candidates.front()->name);
-  const PoseClass& c = identity.pose_class;
-  const std::string replay =
-      c.group() == Group::given ? replay_command(configuration, names) : replay_command(id, names);
-  WorstCase result{pair_name(c.pair),
-                   group_name(c.group()),
-                   c.name(),
-                   campaign.candidates[candidate]->name,
-                   answers.front().second,
-                   {id, configuration, std::move(truth), {}, replay}};
-  std::size_t shown = candidate;
-  for (auto& [answer, score] : answers) {
-    result.examination.answers.push_back(
-        {campaign.candidates[shown]->name, std::move(answer), score});
-    shown = 0;  // the other one is the first candidate's
-  }
-  return result;
-}
-
-/// The worst configurations of every pair × group × candidate, each with the candidate's answer and
-/// that of the campaign's first.
-std::vector<WorstCase> worst_of(const Campaign& campaign, const std::vector<PoseClass>& cells,
-                                const std::vector<std::optional<Sample>>& samples,
-                                const std::vector<Heading>& all) {
+/// The worst cases of every candidate under a heading.
+std::vector<WorstCase> worst_of(const std::vector<std::string>& names, const Scored& scored,
+                                std::uint64_t seed, const Heading& heading) {
   std::vector<WorstCase> result;
-  for (const Heading& heading : all) {
-    if (heading.pair == "all") continue;
-    for (std::size_t k = 0; k < campaign.candidates.size(); ++k) {
-      std::vector<Case> found;
-      for (const std::size_t cell : heading.cells) {
-        const auto& worst = samples[cell]->tallies[k].worst;
-        found.insert(found.end(), worst.begin(), worst.end());
-      }
-      for (const Case& c : worst_of_heading(std::move(found))) {
-        const Identity identity{cells[c.cell], campaign.seed, c.index};
-        result.push_back(worst_case(campaign, *samples[c.cell], identity, k));
-      }
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    std::vector<Case> found;
+    for (const std::size_t cell : heading.cells) {
+      const auto& worst = scored.samples[cell]->tallies[k].worst;
+      found.insert(found.end(), worst.begin(), worst.end());
+    }
+    for (const Case& c : worst_of_heading(std::move(found))) {
+      result.push_back(worst_case(names, scored, seed, c, k));
     }
   }
   return result;
@@ -259,55 +175,31 @@ void rank(std::span<ResultRow> rows, const std::function<bool(const ResultRow&)>
 
 }  // namespace
 
-Report make_report(const Campaign& campaign, const std::string& command) {
-  const auto start = std::chrono::steady_clock::now();
-  const std::vector<PoseClass> all = cells(campaign);
-  // Started before samples fill the memory: to start a plug-in's process costs the more the larger
-  // this one is.
-  auto candidates = campaign.given ? std::vector<CandidateProcess>()
-                                   : touchstone::start(campaign.candidates, campaign.bar.threshold,
-                                                       campaign.limits);
-  const std::vector<std::optional<Sample>> samples = sample_cells(campaign, all);
-  const Times times = time_queries(campaign, all, samples, candidates);
-
-  Report report;
-  report.version = TOUCHSTONE_VERSION;
-  report.command = command;
-  report.seed = campaign.seed;
-  report.tolerance = campaign.bar.tolerance;
-  report.threshold = campaign.bar.threshold;
-  report.machine = describe_machine();
-  report.partial = interrupted();
-  for (const Candidate* c : campaign.candidates) {
-    report.candidates.push_back({c->name, c->family, c->version, c->settings, c->models,
-                                 c->precision, c->runs, campaign.given != nullptr});
-  }
-
-  std::vector<double> oracle_times;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    const std::uint64_t count = count_of(campaign, all[i]);
-    report.planned.classes += 1;
-    report.planned.configurations += count;
-    if (!samples[i]) continue;
+void add_results(Report& report, const Scored& scored) {
+  const std::vector<PoseClass>& cells = scored.cells;
+  const std::vector<std::string> names = names_of(report.candidates);
+  Magnitudes oracle_times(Resolution::exact);
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (!scored.samples[i]) continue;
+    const Sample& sample = *scored.samples[i];
     report.completed.classes += 1;
-    report.completed.configurations += count;
-    const auto has_times = [](const Repetitions& r) { return !r.empty(); };
-    report.timed_classes += std::any_of(times[i].begin(), times[i].end(), has_times);
-    oracle_times.insert(oracle_times.end(), samples[i]->oracle_microseconds.begin(),
-                        samples[i]->oracle_microseconds.end());
-    report.classes.push_back(description_of(all[i]));
-    report.classes.back().digest = digest_of(campaign, all[i]);
-    auto rows = rows_of(campaign, samples, times, {i}, pair_name(all[i].pair), all[i].name());
-    for (std::size_t k = 0; k < rows.size() && all[i].group() != Group::given; ++k) {
-      rows[k].worst_index = worst_failure(samples[i]->tallies[k]);
+    report.completed.configurations += sample.tallies.front().count;
+    if (!scored.times.empty()) {
+      const auto has_times = [](const Repetitions& r) { return !r.empty(); };
+      report.timed_classes +=
+          std::any_of(scored.times[i].begin(), scored.times[i].end(), has_times);
+    }
+    oracle_times.add(sample.oracle_microseconds);
+    report.classes.push_back(description_of(cells[i]));
+    auto rows = rows_of(names, scored, {i}, pair_name(cells[i].pair), cells[i].name());
+    for (std::size_t k = 0; k < rows.size() && cells[i].group() != Group::given; ++k) {
+      rows[k].worst_index = worst_failure(sample.tallies[k]);
     }
     report.results.insert(report.results.end(), rows.begin(), rows.end());
   }
   report.configurations = report.completed.configurations;
-  report.oracle_microseconds = quantiles(std::move(oracle_times));
+  report.oracle_microseconds = oracle_times.quantiles();
 
-  const auto is_scored = [&](std::size_t cell) { return samples[cell].has_value(); };
-  const std::vector<Heading> of_groups = headings(all, is_scored);
   const auto is_native = [&](const ResultRow& row) {
     const auto is = [&](const CandidateDescription& c) { return c.name == row.candidate; };
     return std::find_if(report.candidates.begin(), report.candidates.end(), is)->runs == "native";
@@ -316,23 +208,65 @@ Report make_report(const Campaign& campaign, const std::string& command) {
     return row.pair != "all" ||
            covered_pairs(report, row.pose_class, row.candidate).are_all();  // which stand before it
   };
+  const auto append = [](auto& list, const auto& added) {
+    list.insert(list.end(), added.begin(), added.end());
+  };
+  const std::vector<Heading> of_groups =
+      headings(cells, [&](std::size_t cell) { return scored.samples[cell] != nullptr; });
   for (const Heading& heading : of_groups) {
-    auto rows =
-        rows_of(campaign, samples, times, heading.cells, heading.pair, group_name(heading.group));
+    auto rows = rows_of(names, scored, heading.cells, heading.pair, group_name(heading.group));
     rank(rows, is_native, is_whole);
-    report.summary.insert(report.summary.end(), rows.begin(), rows.end());
+    append(report.summary, rows);
+    if (heading.pair == "all") continue;
+    append(report.trends, trends_of(names, scored, heading));
+    append(report.worst, worst_of(names, scored, report.seed, heading));
   }
   report.factors = factors(report);
   report.contrasts = contrasts(report);
-  report.trends = trends_of(campaign, samples, of_groups);
   for (const RecordedShare& s : recorded_shares()) {
     const auto is_of = [&](const Heading& heading) { return heading.pair == pair_name(s.pair); };
     if (std::any_of(of_groups.begin(), of_groups.end(), is_of)) report.recorded.push_back(s);
   }
-  report.worst = worst_of(campaign, all, samples, of_groups);
-  if (!report.partial && !campaign.given) {
-    report.drake_protocol = drake_protocol(campaign, candidates);
+}
+
+Report begun_report(const std::string& command, std::uint64_t seed, const Bar& bar,
+                    const std::vector<std::uint64_t>& counts) {
+  Report report;
+  report.version = TOUCHSTONE_VERSION;
+  report.command = command;
+  report.seed = seed;
+  report.tolerance = bar.tolerance;
+  report.threshold = bar.threshold;
+  report.machine = describe_machine();
+  report.planned = {counts.size(), std::accumulate(counts.begin(), counts.end(), std::uint64_t{0})};
+  return report;
+}
+
+std::vector<const Sample*> pointers(const std::vector<std::optional<Sample>>& samples) {
+  std::vector<const Sample*> result;
+  for (const auto& sample : samples) result.push_back(sample ? &*sample : nullptr);
+  return result;
+}
+
+Report make_report(const Campaign& campaign, const std::string& command) {
+  const auto start = std::chrono::steady_clock::now();
+  const std::vector<PoseClass> all = cells(campaign);
+  std::vector<std::uint64_t> counts;
+  for (const PoseClass& cell : all) counts.push_back(count_of(campaign, cell));
+  // Started before samples fill the memory: to start a plug-in's process costs the more the larger
+  // this one is.
+  auto candidates = touchstone::start(campaign.candidates, campaign.bar.threshold, campaign.limits);
+  const auto samples = sample_cells(scorer(campaign, Resolution::exact), counts);
+  const Times times = time_queries(campaign, all, samples, candidates);
+
+  Report report = begun_report(command, campaign.seed, campaign.bar, counts);
+  report.partial = interrupted();
+  for (const Candidate* c : campaign.candidates) {
+    report.candidates.push_back(
+        {c->name, c->family, c->version, c->settings, c->models, c->precision, c->runs});
   }
+  add_results(report, {all, pointers(samples), times});
+  if (!report.partial) report.drake_protocol = drake_protocol(campaign, candidates);
   report.wall_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return report;

@@ -6,9 +6,33 @@
 #include <vector>
 
 #include "reports/campaign.hpp"
+#include "reports/replay.hpp"
 #include "reports/report.hpp"
+#include "reports/sampler.hpp"
+#include "reports/timing.hpp"
 
 namespace touchstone {
+
+/// What a report is made of, wherever it was scored: in workers, or in shards that came in files.
+struct Scored {
+  std::vector<PoseClass> cells;
+  std::vector<const Sample*> samples;  ///< of each cell; null: not all of it was scored
+  Times times = {};                    ///< empty: nobody was timed
+  /// What a configuration is called.
+  std::function<std::string(const Identity&)> name = [](const Identity& i) { return to_string(i); };
+  /// The command that shows it again.
+  std::function<std::string(const Identity&, const std::vector<std::string>& candidates)> replay =
+      [](const Identity& i, const auto& names) { return replay_command(to_string(i), names); };
+};
+
+/// The part of a report that follows from what was scored; `report` says already by whom and how.
+void add_results(Report& report, const Scored& scored);
+
+std::vector<const Sample*> pointers(const std::vector<std::optional<Sample>>& samples);
+
+/// A report as it begins: of this program and machine, and all that has to be scored.
+Report begun_report(const std::string& command, std::uint64_t seed, const Bar& bar,
+                    const std::vector<std::uint64_t>& counts);
 
 /// Runs the campaign and the timing. `command` is the command line that a person would repeat. When
 /// an end is asked for (interruption.hpp) the report is of what was done by then, and says so

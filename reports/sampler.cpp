@@ -1,30 +1,27 @@
 #include "reports/sampler.hpp"
 
 #include <algorithm>
+#include <memory>
+#include <numeric>
 #include <set>
 #include <stdexcept>
 
+#include "candidates/host/interruption.hpp"
+#include "candidates/host/progress.hpp"
 #include "candidates/host/worker_processes.hpp"
 #include "properties/files/bytes.hpp"
 
 namespace touchstone {
-namespace {
 
-Precision precision_for(Purpose purpose) {
-  return purpose == Purpose::report ? Precision::exact : Precision::binned;
-}
-
-}  // namespace
-
-Sample::Sample(std::size_t candidates, Purpose purpose)
-    : tallies(candidates, ScoreTally(precision_for(purpose))),
+Sample::Sample(std::size_t candidates, Resolution resolution)
+    : tallies(candidates, ScoreTally(resolution)),
       timed_outcomes(candidates),
-      purpose_(purpose) {}
+      is_exact_(resolution == Resolution::exact) {}
 
 void Sample::add(std::size_t cell, std::uint64_t index, const ScoredConfiguration& scored) {
   for (std::size_t k = 0; k < tallies.size(); ++k) tallies[k].add(cell, index, scored.scores[k]);
-  if (purpose_ == Purpose::campaign) return;
-  oracle_microseconds.push_back(scored.oracle_microseconds);
+  if (!is_exact_) return;
+  oracle_microseconds.add(scored.oracle_microseconds);
   trends.add(scored.configuration, scored.truth.signed_distance.midpoint(), scored.scores);
   if (index < max_timed) timed.push_back(scored.configuration);
   bool is_among_worst = false;
@@ -50,8 +47,7 @@ void Sample::add(const Sample& next) {
     timed_outcomes[k].insert(timed_outcomes[k].end(), next.timed_outcomes[k].begin(),
                              next.timed_outcomes[k].end());
   }
-  oracle_microseconds.insert(oracle_microseconds.end(), next.oracle_microseconds.begin(),
-                             next.oracle_microseconds.end());
+  oracle_microseconds.add(next.oracle_microseconds);
   trends.add(next.trends);
   timed.insert(timed.end(), next.timed.begin(), next.timed.end());
   examined_.insert(next.examined_.begin(), next.examined_.end());
@@ -66,42 +62,13 @@ void Sample::forget_better_cases() {
   std::erase_if(examined_, [&](const auto& entry) { return !worst.contains(entry.first); });
 }
 
-Sample::Examined Sample::examined(std::size_t candidate, std::uint64_t index) const {
+std::optional<Sample::Examined> Sample::examined(std::size_t candidate, std::uint64_t index) const {
+  const auto found = examined_.find({candidate, index});
+  if (found == examined_.end()) return std::nullopt;
   Examined result{blank<Configuration>(), {}, {}};
-  BytesIn{examined_.at({candidate, index})}(result);
+  BytesIn{found->second}(result);
   return result;
 }
-
-namespace {
-
-/// Scores a unit of answers that came in a file.
-Sample sample_given(const Campaign& campaign, Purpose purpose, const PoseClass& cell,
-                    const Unit& unit) {
-  const std::span all(answers_in(*campaign.given, cell));
-  Sample result(1, purpose);
-  for (const GivenAnswer& given : all.subspan(unit.first, unit.last - unit.first)) {
-    const Configuration c = answered_configuration(campaign, cell, given);
-    try {
-      score_answers({&c, 1}, {{given.answer()}}, campaign.bar, truth_width,
-                    [&](const ScoredConfiguration& s) { result.add(unit.cell, given.index, s); });
-    } catch (const std::exception& e) {
-      throw std::runtime_error(given.id + ": " + e.what());
-    }
-  }
-  return result;
-}
-
-/// Scores a run of them. Returns a sample of each unit.
-std::vector<Sample> sample_given(const Campaign& campaign, Purpose purpose,
-                                 const std::vector<PoseClass>& cells, const UnitRun& run) {
-  std::vector<Sample> result;
-  for (const Unit& unit : run) {
-    result.push_back(sample_given(campaign, purpose, cells[unit.cell], unit));
-  }
-  return result;
-}
-
-}  // namespace
 
 std::vector<UnitRun> runs_of(const std::vector<Unit>& units, std::uint64_t max_size) {
   std::vector<UnitRun> runs;
@@ -118,7 +85,7 @@ std::vector<UnitRun> runs_of(const std::vector<Unit>& units, std::uint64_t max_s
   return runs;
 }
 
-std::vector<Sample> sample_run(const Campaign& campaign, Purpose purpose,
+std::vector<Sample> sample_run(const Campaign& campaign, Resolution resolution,
                                std::span<CandidateProcess* const> candidates,
                                const std::vector<PoseClass>& cells, const UnitRun& run) {
   /// Where a configuration belongs.
@@ -139,7 +106,7 @@ std::vector<Sample> sample_run(const Campaign& campaign, Purpose purpose,
     }
     unit_ends.push_back(places.size());
   }
-  std::vector<Sample> result(run.size(), Sample(candidates.size(), purpose));
+  std::vector<Sample> result(run.size(), Sample(candidates.size(), resolution));
   std::size_t at = 0;
   try {
     std::vector<std::vector<Answer>> answers;
@@ -161,35 +128,73 @@ std::vector<Sample> sample_run(const Campaign& campaign, Purpose purpose,
   return result;
 }
 
-bool sample(const Campaign& campaign, Purpose purpose, std::uint64_t count,
+Scorer scorer(const Campaign& campaign, Resolution resolution) {
+  const auto candidates = std::make_shared<WorkerCandidates>(
+      campaign.candidates, campaign.bar.threshold, campaign.limits);
+  return {campaign.candidates.size(), resolution, campaign.workers,
+          [=, cells = cells(campaign)](const UnitRun& run) {
+            return sample_run(campaign, resolution, pointers(candidates->get()), cells, run);
+          },
+          [cells = cells(campaign), seed = campaign.seed](const Unit& unit) {
+            return to_string(Identity{cells[unit.cell], seed, unit.first});
+          }};
+}
+
+bool sample(const Scorer& scorer, std::uint64_t count,
             const std::function<UnitRun(std::uint64_t)>& run,
             const std::function<void(std::uint64_t, std::vector<Sample>)>& take,
             const std::function<bool()>& go_on, const std::function<void()>& forget) {
-  const std::vector<PoseClass> all = cells(campaign);
-  WorkerCandidates candidates(campaign.candidates, campaign.bar.threshold, campaign.limits);
   return stream_from_processes(
-      count, campaign.workers,
+      count, scorer.workers,
       [&](std::uint64_t task) {
-        const std::vector<Sample> samples =
-            campaign.given
-                ? sample_given(campaign, purpose, all, run(task))
-                : sample_run(campaign, purpose, pointers(candidates.get()), all, run(task));
         BytesOut out;
-        for (const Sample& of_unit : samples) out(of_unit);
+        for (const Sample& of_unit : scorer.score(run(task))) out(of_unit);
         return out.take();
       },
-      [&](std::uint64_t task) {
-        const auto [cell, first, last] = run(task).front();
-        if (campaign.given) return answers_in(*campaign.given, all[cell])[first].id;
-        return to_string(Identity{all[cell], campaign.seed, first});
-      },
+      [&](std::uint64_t task) { return scorer.name(run(task).front()); },
       [&](std::uint64_t task, const std::string& bytes) {
         BytesIn in(bytes);
-        std::vector<Sample> samples(run(task).size(), Sample(campaign.candidates.size(), purpose));
+        std::vector<Sample> samples(run(task).size(), Sample(scorer.candidates, scorer.resolution));
         for (Sample& of_unit : samples) in(of_unit);
         take(task, std::move(samples));
       },
       go_on, forget);
+}
+
+std::vector<std::optional<Sample>> sample_cells(const Scorer& scorer,
+                                                const std::vector<std::uint64_t>& counts) {
+  std::vector<Unit> units;
+  for (std::size_t cell = 0; cell < counts.size(); ++cell) {
+    const EqualUnits cut{counts[cell]};
+    for (std::uint64_t n = 0; n < cut.units(); ++n) units.push_back(cut.unit(cell, n));
+  }
+  const std::vector<UnitRun> runs = runs_of(units, run_size);
+  std::vector<std::vector<Sample>> samples(runs.size());  // of the units of each run
+  Progress progress("configurations",
+                    std::accumulate(counts.begin(), counts.end(), std::uint64_t{0}));
+  std::uint64_t done = 0;
+  sample(
+      scorer, runs.size(), [&](std::uint64_t number) { return runs[number]; },
+      [&](std::uint64_t number, std::vector<Sample> of_run) {
+        samples[number] = std::move(of_run);
+        for (const Unit& unit : runs[number]) done += unit.last - unit.first;
+        progress.update(done);
+      },
+      [] { return !interrupted(); });
+
+  std::vector<std::vector<Sample*>> units_of(counts.size());  // of each cell
+  for (std::size_t number = 0; number < runs.size(); ++number) {
+    for (std::size_t i = 0; i < samples[number].size(); ++i) {
+      units_of[runs[number][i].cell].push_back(&samples[number][i]);
+    }
+  }
+  std::vector<std::optional<Sample>> result(counts.size());
+  for (std::size_t cell = 0; cell < counts.size(); ++cell) {
+    const std::vector<Sample*>& parts = units_of[cell];
+    if (parts.size() < EqualUnits{counts[cell]}.units()) continue;
+    result[cell] = sum_of(0, parts.size(), [&](std::size_t i) { return std::move(*parts[i]); });
+  }
+  return result;
 }
 
 }  // namespace touchstone

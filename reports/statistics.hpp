@@ -25,7 +25,6 @@ struct Quantiles {
   double median, p99, max;
   std::optional<Bounds> median_bounds = {}, p99_bounds = {};  ///< of binned values
 };
-std::optional<Quantiles> quantiles(std::vector<double> values);
 
 /// Shares of which more is better: the 1st percentile is that of which 99% are no less. Of binned
 /// values, median and percentile are the smaller end of their bounds.
@@ -33,7 +32,6 @@ struct Shares {
   double mean, median, p1, min;
   std::optional<Bounds> median_bounds = {}, p1_bounds = {};  ///< of binned values
 };
-std::optional<Shares> shares(const std::vector<double>& values);
 
 /// Median of values that have a sign, by nearest rank; of binned values the end of its bounds that
 /// is farther from zero.
@@ -52,8 +50,6 @@ struct LogHistogram {
 
   bool operator==(const LogHistogram&) const = default;
 };
-/// Histogram of finite values that are not negative.
-LogHistogram log_histogram(const std::vector<double>& values);
 
 using OutcomeCounts = std::array<std::uint64_t, all_outcomes.size()>;  ///< in the order of these
 

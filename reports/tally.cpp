@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <tuple>
 #include <utility>
@@ -59,9 +60,19 @@ std::vector<Case> worst_of_heading(std::vector<Case> cases) {
 
 namespace {
 
+/// Eighths of an octave keep the first 15 bits of a double: sign, exponent, three of the mantissa.
+/// The bits of doubles that are not negative ascend with them.
 constexpr int dropped_bits = 64 - 15;
 
-double lower_end(std::uint64_t bin) { return std::bit_cast<double>(bin << dropped_bits); }
+double rounded_down(double magnitude) {
+  const auto bits = std::bit_cast<std::uint64_t>(magnitude);
+  return std::bit_cast<double>(bits >> dropped_bits << dropped_bits);
+}
+
+/// Where the next bin begins.
+double next_bin(double bin) {
+  return std::bit_cast<double>(std::bit_cast<std::uint64_t>(bin) + (1ULL << dropped_bits));
+}
 
 /// What is kept of the score of one of the worst cases.
 Score essence(const Score& s) {
@@ -73,73 +84,83 @@ Score essence(const Score& s) {
   return kept;
 }
 
-std::optional<LogHistogram> histogram(const Magnitudes& m) {
-  if (m.values().empty()) return std::nullopt;
-  return log_histogram(m.values());
-}
-
 }  // namespace
-
-std::uint16_t Magnitudes::bin_of(double magnitude) {
-  // The bits of a double that is not negative grow with it, so that bins are numbered in order.
-  return static_cast<std::uint16_t>(std::bit_cast<std::uint64_t>(magnitude) >> dropped_bits);
-}
-
-Magnitudes::Magnitudes(Bins bins, double max)
-    : precision_(Precision::binned), bins_(std::move(bins)), max_(max) {
-  for (const auto& [bin, count] : bins_) count_ += count;
-}
 
 void Magnitudes::add(double value) {
   const double magnitude = std::abs(finite(value));
-  if (precision_ == Precision::exact) {
-    values_.push_back(magnitude);
-  } else {
-    ++bins_[bin_of(magnitude)];
-  }
-  ++count_;
   max_ = std::max(max_, magnitude);
+  const double kept = is_exact() ? magnitude : rounded_down(magnitude);
+  const auto at = std::ranges::lower_bound(entries_, kept, {}, &Entry::value);
+  if (at != entries_.end() && at->value == kept) {
+    ++at->times;
+  } else {
+    entries_.insert(at, {kept, 1});
+  }
 }
 
 void Magnitudes::add(const Magnitudes& other) {
-  for (const auto& [bin, count] : other.bins_) bins_[bin] += count;
-  values_.insert(values_.end(), other.values_.begin(), other.values_.end());
-  count_ += other.count_;
   max_ = std::max(max_, other.max_);
+  std::vector<Entry> both;
+  both.reserve(entries_.size() + other.entries_.size());
+  std::ranges::merge(entries_, other.entries_, std::back_inserter(both), {}, &Entry::value,
+                     &Entry::value);
+  entries_.clear();
+  for (const Entry& entry : both) {
+    if (entries_.empty() || entries_.back().value != entry.value) {
+      entries_.push_back(entry);
+    } else {
+      entries_.back().times += entry.times;
+    }
+  }
+}
+
+std::uint64_t Magnitudes::count() const {
+  std::uint64_t count = 0;
+  for (const Entry& entry : entries_) count += entry.times;
+  return count;
 }
 
 std::optional<Quantiles> Magnitudes::quantiles() const {
-  if (precision_ == Precision::exact) return touchstone::quantiles(values_);
-  const auto median = percentile(50), p99 = percentile(99);
-  if (!median) return std::nullopt;
-  return Quantiles{median->upper, p99->upper, max_, median, p99};
-}
-
-std::optional<Bounds> Magnitudes::percentile(std::uint64_t percent) const {
-  if (count_ == 0) return std::nullopt;
-  return ranked((percent * count_ + 99) / 100);
+  const std::uint64_t n = count();
+  if (n == 0) return std::nullopt;
+  const Bounds median = ranked((n + 1) / 2), p99 = ranked((99 * n + 99) / 100);
+  Quantiles result{median.upper, p99.upper, max_};
+  if (!is_exact()) {
+    result.median_bounds = median;
+    result.p99_bounds = p99;
+  }
+  return result;
 }
 
 Bounds Magnitudes::ranked(std::uint64_t rank) const {
-  if (precision_ == Precision::exact) {
-    std::vector<double> values = values_;
-    const auto at = values.begin() + static_cast<std::ptrdiff_t>(rank - 1);
-    std::nth_element(values.begin(), at, values.end());
-    return {*at, *at};
-  }
   std::uint64_t seen = 0;
-  for (const auto& [bin, count] : bins_) {
-    seen += count;
-    if (seen >= rank) return Bounds{lower_end(bin), std::min(lower_end(bin + 1U), max_)};
+  for (const auto& [value, times] : entries_) {
+    seen += times;
+    if (seen < rank) continue;
+    return {value, is_exact() ? value : std::min(next_bin(value), max_)};
   }
-  return Bounds{max_, max_};
+  return {max_, max_};
+}
+
+std::optional<LogHistogram> Magnitudes::half_decades() const {
+  if (!is_exact() || entries_.empty()) return std::nullopt;
+  constexpr int min_bin = -36, max_bin = 11;
+  LogHistogram result;
+  for (const auto& [value, times] : entries_) {
+    if (value == 0) {
+      result.zero = times;
+      continue;
+    }
+    const int bin =
+        static_cast<int>(std::clamp<double>(std::floor(2 * std::log10(value)), min_bin, max_bin));
+    if (result.counts.empty()) result.first = bin;
+    result.counts.resize(static_cast<std::size_t>(bin - result.first) + 1);
+    result.counts.back() += times;
+  }
+  return result;
 }
 
 void CoverageTally::add(double coverage) {
-  if (uncovered.precision() == Precision::exact) {
-    values.push_back(coverage);
-    return;
-  }
   const double covered = std::clamp(coverage, 0.0, 1.0);
   uncovered.add(1 - covered);
   sum += static_cast<std::uint64_t>(std::llround(covered / unit));
@@ -148,17 +169,24 @@ void CoverageTally::add(double coverage) {
 void CoverageTally::add(const CoverageTally& other) {
   uncovered.add(other.uncovered);
   sum += other.sum;
-  values.insert(values.end(), other.values.begin(), other.values.end());
 }
 
 std::optional<Shares> CoverageTally::shares() const {
-  if (uncovered.precision() == Precision::exact) return touchstone::shares(values);
   const auto q = uncovered.quantiles();
   if (!q) return std::nullopt;
+  double covered = static_cast<double>(sum) * unit;
+  if (uncovered.is_exact()) {
+    covered = 0;
+    for (const auto& [value, times] : uncovered.entries()) {
+      covered += (1 - value) * static_cast<double>(times);
+    }
+  }
+  Shares result{covered / static_cast<double>(uncovered.count()), 1 - q->median, 1 - q->p99,
+                1 - q->max};
   const auto rest = [](const Bounds& b) { return Bounds{1 - b.upper, 1 - b.lower}; };
-  const double mean = static_cast<double>(sum) * unit / static_cast<double>(uncovered.count());
-  return Shares{mean,       1 - q->median,           1 - q->p99,
-                1 - q->max, rest(*q->median_bounds), rest(*q->p99_bounds)};
+  if (q->median_bounds) result.median_bounds = rest(*q->median_bounds);
+  if (q->p99_bounds) result.p1_bounds = rest(*q->p99_bounds);
+  return result;
 }
 
 void SignedTally::add(double value) { (value < 0 ? negative : positive).add(value); }
@@ -169,16 +197,21 @@ void SignedTally::add(const SignedTally& other) {
 }
 
 std::optional<SignedMedian> SignedTally::median() const {
-  if (count() == 0) return std::nullopt;
-  const std::uint64_t rank = (count() + 1) / 2;
-  const bool is_negative = rank <= negative.count();
-  // The smallest negative value has the largest magnitude.
-  const Bounds magnitude = is_negative ? negative.ranked(negative.count() + 1 - rank)
-                                       : positive.ranked(rank - negative.count());
-  SignedMedian result{is_negative ? -magnitude.upper : magnitude.upper};
-  if (negative.precision() == Precision::binned) {
-    result.bounds = is_negative ? Bounds{-magnitude.upper, -magnitude.lower} : magnitude;
+  const std::uint64_t below = negative.count(), count = below + positive.count();
+  if (count == 0) return std::nullopt;
+  const std::uint64_t rank = (count + 1) / 2;
+  if (rank > below) {
+    const Bounds b = positive.ranked(rank - below);
+    return SignedMedian{b.upper, positive.is_exact() ? std::nullopt : std::optional(b)};
   }
+  // The smallest negative value has the largest magnitude.
+  const Bounds magnitude = negative.ranked(below + 1 - rank), b{-magnitude.upper, -magnitude.lower};
+  return SignedMedian{b.lower, negative.is_exact() ? std::nullopt : std::optional(b)};
+}
+
+Magnitudes SignedTally::magnitudes() const {
+  Magnitudes result = negative;
+  result.add(positive);
   return result;
 }
 
@@ -188,11 +221,12 @@ std::optional<std::uint64_t> worst_failure(const ScoreTally& tally) {
   return tally.worst.front().index;
 }
 
-ScoreTally::ScoreTally(Precision precision)
-    : errors(quantities.size(), Magnitudes(precision)),
-      bias(precision),
-      severity(precision),
-      coverage(precision) {}
+ScoreTally::ScoreTally(Resolution resolution)
+    : depth_error{Magnitudes(resolution), Magnitudes(resolution)},
+      severity(resolution),
+      coverage{Magnitudes(resolution)} {
+  errors.fill(Magnitudes(resolution));
+}
 
 void ScoreTally::add(std::size_t cell, std::uint64_t index, const Score& s) {
   ++count;
@@ -201,7 +235,7 @@ void ScoreTally::add(std::size_t cell, std::uint64_t index, const Score& s) {
   for (std::size_t i = 0; i < quantities.size(); ++i) {
     if (const auto& error = s.*quantities[i].value) errors[i].add(*error);
   }
-  if (s.depth_error) bias.add(*s.depth_error);
+  if (s.depth_error) depth_error.add(*s.depth_error);
   if (is_judged(s.outcome)) severity.add(s.severity);
   if (s.coverage) coverage.add(*s.coverage);
   const Case added{cell, index, essence(s)};
@@ -221,7 +255,7 @@ void ScoreTally::add(const ScoreTally& other) {
   for (std::size_t i = 0; i < outcomes.size(); ++i) outcomes[i] += other.outcomes[i];
   for (const auto& [number, times] : other.points) points[number] += times;
   for (std::size_t i = 0; i < errors.size(); ++i) errors[i].add(other.errors[i]);
-  bias.add(other.bias);
+  depth_error.add(other.depth_error);
   severity.add(other.severity);
   coverage.add(other.coverage);
   worst.insert(worst.end(), other.worst.begin(), other.worst.end());
@@ -233,13 +267,14 @@ Statistics ScoreTally::statistics() const {
   result.count = count;
   result.outcomes = outcomes;
   result.points = points;
+  const Magnitudes depth = depth_error.magnitudes();
+  result.depth_error = depth.quantiles();
+  result.depth_histogram = depth.half_decades();
+  result.bias = depth_error.median();
   for (std::size_t i = 0; i < errors.size(); ++i) {
     result.*quantities[i].quantiles = errors[i].quantiles();
   }
-  // Counts from before signs were kept know no bias.
-  if (bias.count() == errors[0].count()) result.bias = bias.median();
-  result.depth_histogram = histogram(errors[0]);
-  result.regret_histogram = histogram(errors[1]);
+  result.regret_histogram = errors[0].half_decades();
   result.severity = severity.quantiles();
   result.coverage = coverage.shares();
   return result;
@@ -320,7 +355,7 @@ void TrendTally::add(const Configuration& c, double signed_distance,
     for (std::size_t k = 0; k < scores.size(); ++k) {
       if (!is_judged(scores[k].outcome)) continue;
       Bin& bin = bins_[{k, variable, decade(*value)}];
-      bin.severity.push_back(scores[k].severity);
+      bin.severity.add(scores[k].severity);
       bin.missed += scores[k].outcome == Outcome::missed;
     }
   }
@@ -329,7 +364,7 @@ void TrendTally::add(const Configuration& c, double signed_distance,
 void TrendTally::add(const TrendTally& other) {
   for (const auto& [key, added] : other.bins_) {
     Bin& bin = bins_[key];
-    bin.severity.insert(bin.severity.end(), added.severity.begin(), added.severity.end());
+    bin.severity.add(added.severity);
     bin.missed += added.missed;
   }
 }
@@ -342,8 +377,8 @@ std::vector<Trend> TrendTally::trends(const std::string& pair, const std::string
     if (!last || last->candidate != key.candidate || last->variable != key.variable) {
       result.push_back({pair, group, candidates[key.candidate], variable_name(key.variable), {}});
     }
-    const Quantiles q = *quantiles(bin.severity);
-    result.back().bins.push_back({key.decade, bin.severity.size(), bin.missed, q.median, q.max});
+    const Quantiles q = *bin.severity.quantiles();
+    result.back().bins.push_back({key.decade, bin.severity.count(), bin.missed, q.median, q.max});
     last = &key;
   }
   return result;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <boost/container/flat_map.hpp>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -37,58 +36,54 @@ std::vector<Case> worst_of_class(std::vector<Case> cases);
 /// each outcome, and what else is worst up to four, worst first.
 std::vector<Case> worst_of_heading(std::vector<Case> cases);
 
-/// How magnitudes are kept.
-enum class Precision {
-  exact,  ///< every value: exact quantiles; memory grows with the number of values
-  binned  ///< counts of bins and the maximum: bounds of quantiles; memory stays flat
+/// How finely magnitudes are kept.
+enum class Resolution {
+  exact,    ///< as they are: exact quantiles; memory grows with the number of values
+  eighths,  ///< by eighths of an octave: bounds of quantiles; memory stays flat
 };
 
-/// Magnitudes |value| of which quantiles are wanted. Sums of parts, added in any order, have the
-/// same quantiles; binned, the same bits. A bin is an eighth of an octave wide; bins reach from
-/// zero to the largest double.
+/// Magnitudes |value| of which quantiles are wanted: how often each occurs, at the resolution.
+/// Everything in it is a count or a maximum: sums of parts, added in any order, are the same to the
+/// last bit.
 class Magnitudes {
  public:
   /// Sums and percentiles do not overflow, not even of a thousand pose classes together: a coverage
   /// sum has room for 2^64 of its units, which are 1.8e13 configurations.
   static constexpr std::uint64_t max_count = 1'000'000'000;
-  /// The first 15 bits of a double that is not negative (sign, exponent, three of the mantissa)
-  /// number its bin.
-  using Bins = boost::container::flat_map<std::uint16_t, std::uint64_t>;
-  static std::uint16_t bin_of(double magnitude);
 
-  explicit Magnitudes(Precision precision = Precision::binned) : precision_(precision) {}
-  /// Binned ones that were kept elsewhere.
-  Magnitudes(Bins bins, double max);
+  /// A value, rounded down to the resolution, and how often it occurs.
+  struct Entry {
+    double value;
+    std::uint64_t times;
+  };
+
+  explicit Magnitudes(Resolution resolution = Resolution::eighths) : resolution_(resolution) {}
 
   /// What is not finite counts as the largest double.
   void add(double value);
-  /// Adds magnitudes of the same precision.
+  /// Adds magnitudes of the same resolution.
   void add(const Magnitudes& other);
 
-  Precision precision() const { return precision_; }
-  std::uint64_t count() const { return count_; }
-  double max() const { return max_; }
-  const Bins& bins() const { return bins_; }                     ///< empty where exact
-  const std::vector<double>& values() const { return values_; }  ///< empty where binned
+  bool is_exact() const { return resolution_ == Resolution::exact; }
+  std::uint64_t count() const;
+  const std::vector<Entry>& entries() const { return entries_; }  ///< in ascending order
 
   /// Absent without values.
   std::optional<Quantiles> quantiles() const;
-  /// Bounds, at most an eighth apart, of the ⌈n·percent/100⌉-th smallest of n binned values.
-  std::optional<Bounds> percentile(std::uint64_t percent) const;
-  /// Bounds of the rank-th smallest value: equal ones where values are exact. Precondition: rank is
-  /// from 1 to count().
+  /// Bounds of the rank-th smallest value, at most an eighth apart; equal ones where values are
+  /// exact. Precondition: rank is from 1 to count().
   Bounds ranked(std::uint64_t rank) const;
+  /// Absent without values, and of values that are not exact.
+  std::optional<LogHistogram> half_decades() const;
 
   template <class Archive>
   friend void members(Archive& a, Magnitudes& m) {
-    a(m.precision_, m.bins_, m.values_, m.count_, m.max_);
+    a(m.resolution_, m.entries_, m.max_);
   }
 
  private:
-  Precision precision_;
-  Bins bins_;
-  std::vector<double> values_;
-  std::uint64_t count_ = 0;
+  Resolution resolution_;
+  std::vector<Entry> entries_;
   double max_ = 0;
 };
 
@@ -97,77 +92,88 @@ struct CoverageTally {
   /// Unit of `sum`: coverage is summed as an integer, for a sum of doubles depends on its order.
   static constexpr double unit = 0x1p-20;
 
-  explicit CoverageTally(Precision precision) : uncovered(precision) {}
   void add(double coverage);
   void add(const CoverageTally& other);
   std::optional<Shares> shares() const;
 
-  Magnitudes uncovered;        ///< binned: one minus each coverage
-  std::uint64_t sum = 0;       ///< binned: of coverages, in units
-  std::vector<double> values;  ///< exact: each coverage, in order
+  Magnitudes uncovered;   ///< one minus each coverage
+  std::uint64_t sum = 0;  ///< of coverages, in units
 };
 
-/// Values with a sign of which the median is wanted.
+/// Values with a sign, of which the median is wanted, too.
 struct SignedTally {
-  explicit SignedTally(Precision precision) : negative(precision), positive(precision) {}
   void add(double value);
   void add(const SignedTally& other);
   std::optional<SignedMedian> median() const;
-  std::uint64_t count() const { return negative.count() + positive.count(); }
+  Magnitudes magnitudes() const;
 
   Magnitudes negative, positive;  ///< zero is positive
 };
 
-/// The scores of one candidate on any number of configurations. Binned, it takes constant memory,
-/// and everything in it is an integer, a maximum or a selection under a total order: tallies of the
-/// parts, added in any order, are the tally of the whole to the last bit. Exact, only the mean
-/// coverage depends on the order of adding, in its last bits.
+/// The scores of one candidate on any number of configurations. Everything in it is an integer, a
+/// maximum or a selection under a total order: tallies of the parts, added in any order, are the
+/// tally of the whole to the last bit.
 struct ScoreTally {
-  explicit ScoreTally(Precision precision = Precision::binned);
+  explicit ScoreTally(Resolution resolution = Resolution::eighths);
 
   /// Adds the score of a configuration: `index` of its cell.
   void add(std::size_t cell, std::uint64_t index, const Score& score);
-  /// Adds a tally of the same precision.
+  /// Adds a tally of the same resolution.
   void add(const ScoreTally& other);
 
   Statistics statistics() const;
 
-  /// Errors of a score, as report.json calls them; less is better.
+  /// Errors of a score beside that of the depth; less is better.
   struct Quantity {
-    const char* name;
     std::optional<double> Score::*value;
     std::optional<Quantiles> Statistics::*quantiles;
   };
-  static constexpr std::array<Quantity, 7> quantities = {
-      {{"depth_error", &Score::depth_error, &Statistics::depth_error},
-       {"normal_regret", &Score::normal_regret, &Statistics::normal_regret},
-       {"normal_angle", &Score::normal_angle, &Statistics::normal_angle},
-       {"point_error", &Score::point_error, &Statistics::point_error},
-       {"deepest_error", &Score::deepest_error, &Statistics::deepest_error},
-       {"model_error", &Score::model_error, &Statistics::model_error},
-       {"solver_error", &Score::solver_error, &Statistics::solver_error}}};
+  static constexpr std::array<Quantity, 6> quantities = {
+      {{&Score::normal_regret, &Statistics::normal_regret},
+       {&Score::normal_angle, &Statistics::normal_angle},
+       {&Score::point_error, &Statistics::point_error},
+       {&Score::deepest_error, &Statistics::deepest_error},
+       {&Score::model_error, &Statistics::model_error},
+       {&Score::solver_error, &Statistics::solver_error}}};
 
   std::uint64_t count = 0;
   OutcomeCounts outcomes{};
   std::map<int, std::uint64_t> points;
-  std::vector<Magnitudes> errors;  ///< of each of the quantities
-  SignedTally bias;                ///< of depth errors
-  Magnitudes severity;             ///< of all that is judged, missed contacts included
+  SignedTally depth_error;
+  std::array<Magnitudes, quantities.size()> errors;
+  Magnitudes severity;  ///< of all that is judged, missed contacts included
   CoverageTally coverage;
   std::vector<Case> worst;  ///< of a tally of one cell: its worst_of_class
 };
 
+/// Adds up part(first) … part(last − 1), in their order; halves first, so that no value is copied
+/// often.
+template <class PartOf>
+auto sum_of(std::size_t first, std::size_t last, const PartOf& part) {
+  if (last - first == 1) return part(first);
+  const std::size_t middle = first + (last - first) / 2;
+  auto sum = sum_of(first, middle, part);
+  sum.add(sum_of(middle, last, part));
+  return sum;
+}
+
+/// What is kept of the worst cases.
+template <class Archive>
+void members(Archive& a, Case& c) {
+  Score& s = c.score;
+  a(c.cell, c.index, s.outcome, s.depth_error, s.normal_regret, s.severity);
+}
 template <class Archive>
 void members(Archive& a, SignedTally& t) {
   a(t.negative, t.positive);
 }
 template <class Archive>
 void members(Archive& a, CoverageTally& t) {
-  a(t.uncovered, t.sum, t.values);
+  a(t.uncovered, t.sum);
 }
 template <class Archive>
 void members(Archive& a, ScoreTally& t) {
-  a(t.count, t.outcomes, t.points, t.errors, t.bias, t.severity, t.coverage, t.worst);
+  a(t.count, t.outcomes, t.points, t.depth_error, t.errors, t.severity, t.coverage, t.worst);
 }
 
 /// Index of the worst configuration in a tally of one cell on which the candidate disagrees.
@@ -215,7 +221,7 @@ class TrendTally {
     auto operator<=>(const Key&) const = default;  // NOLINT(modernize-use-nullptr): not written
   };
   struct Bin {
-    std::vector<double> severity;
+    Magnitudes severity{Resolution::exact};
     std::uint64_t missed = 0;
 
     template <class Archive>

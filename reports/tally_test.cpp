@@ -14,7 +14,6 @@
 #include "candidates/candidates.hpp"
 #include "reports/make_report.hpp"
 #include "reports/report_json.hpp"
-#include "reports/statistics.hpp"
 
 namespace touchstone {
 namespace {
@@ -43,8 +42,8 @@ Score arbitrary_score() {
   return s;
 }
 
-ScoreTally tally_of(const std::vector<Score>& scores, Precision precision) {
-  ScoreTally tally(precision);
+ScoreTally tally_of(const std::vector<Score>& scores, Resolution resolution) {
+  ScoreTally tally(resolution);
   for (std::size_t i = 0; i < scores.size(); ++i) tally.add(3, i, scores[i]);
   return tally;
 }
@@ -67,8 +66,8 @@ TEST(ScoreTally, CountsOutcomesAndPoints) {
   overdeep.outcome = Outcome::overdeep;
   overdeep.depth_error = -2e-3;
   missed.outcome = Outcome::missed;
-  for (const Precision precision : {Precision::exact, Precision::binned}) {
-    const Statistics s = tally_of({agreeing, overdeep, missed}, precision).statistics();
+  for (const Resolution resolution : {Resolution::exact, Resolution::eighths}) {
+    const Statistics s = tally_of({agreeing, overdeep, missed}, resolution).statistics();
     EXPECT_EQ(s.count, 3u);
     EXPECT_EQ(s.of(Outcome::agree), 1u);
     EXPECT_EQ(s.of(Outcome::overdeep), 1u);
@@ -82,18 +81,16 @@ TEST(ScoreTally, OfPartsInAnyOrderIsThatOfTheWhole) {
   EXPECT_TRUE(rc::check([] {
     std::vector<Score> scores(static_cast<std::size_t>(*rc::gen::inRange(1, 40)));
     for (Score& s : scores) s = arbitrary_score();
-    const Precision precision = *rc::gen::element(Precision::exact, Precision::binned);
-    std::vector<ScoreTally> parts(4, ScoreTally(precision));
+    const Resolution resolution = *rc::gen::element(Resolution::exact, Resolution::eighths);
+    std::vector<ScoreTally> parts(4, ScoreTally(resolution));
     for (std::size_t i = 0; i < scores.size(); ++i) {
-      // The mean of exact coverages depends on their order: only some sums of doubles are exact.
-      if (scores[i].coverage) scores[i].coverage = std::round(*scores[i].coverage * 4) / 4;
       parts[*rc::gen::inRange<std::size_t>(0, 4)].add(3, i, scores[i]);
     }
-    ScoreTally sum(precision);
+    ScoreTally sum(resolution);
     const auto orders =
         std::vector<std::vector<std::size_t>>{{0, 1, 2, 3}, {3, 2, 1, 0}, {2, 0, 3, 1}};
     for (const std::size_t i : *rc::gen::elementOf(orders)) sum.add(parts[i]);
-    RC_ASSERT(text(sum) == text(tally_of(scores, precision)));
+    RC_ASSERT(text(sum) == text(tally_of(scores, resolution)));
   }));
 }
 
@@ -108,8 +105,8 @@ TEST(ScoreTally, BinnedBoundsTheExactQuantiles) {
   EXPECT_TRUE(rc::check([] {
     std::vector<Score> scores(static_cast<std::size_t>(*rc::gen::inRange(1, 200)));
     for (Score& s : scores) s = arbitrary_score();
-    const Statistics exact = tally_of(scores, Precision::exact).statistics();
-    const Statistics found = tally_of(scores, Precision::binned).statistics();
+    const Statistics exact = tally_of(scores, Resolution::exact).statistics();
+    const Statistics found = tally_of(scores, Resolution::eighths).statistics();
     EXPECT_EQ(found.count, exact.count);
     EXPECT_EQ(found.outcomes, exact.outcomes);
     EXPECT_EQ(found.points, exact.points);
@@ -137,20 +134,20 @@ TEST(ScoreTally, BinnedBoundsTheExactQuantiles) {
 }
 
 TEST(ScoreTally, TheBiasIsTheMedianDepthErrorWithItsSign) {
-  const auto bias = [](const std::vector<double>& errors, Precision precision) {
+  const auto bias = [](const std::vector<double>& errors, Resolution resolution) {
     std::vector<Score> scores(errors.size());
     for (std::size_t i = 0; i < errors.size(); ++i) scores[i].depth_error = errors[i];
-    return tally_of(scores, precision).statistics().bias;
+    return tally_of(scores, resolution).statistics().bias;
   };
-  EXPECT_EQ(bias({-3, 1, -2}, Precision::exact)->value, -2);
-  EXPECT_EQ(bias({-3, 1, 2, 0}, Precision::exact)->value, 0);
-  EXPECT_EQ(bias({-3, 1, 2, 4, 5}, Precision::exact)->value, 2);
-  const auto binned = bias({-3, 1, -2.1}, Precision::binned);
+  EXPECT_EQ(bias({-3, 1, -2}, Resolution::exact)->value, -2);
+  EXPECT_EQ(bias({-3, 1, 2, 0}, Resolution::exact)->value, 0);
+  EXPECT_EQ(bias({-3, 1, 2, 4, 5}, Resolution::exact)->value, 2);
+  const auto binned = bias({-3, 1, -2.1}, Resolution::eighths);
   EXPECT_LE(binned->bounds->lower, -2.1);
   EXPECT_GE(binned->bounds->upper, -2.1);
   EXPECT_LT(binned->bounds->upper, 0);
   EXPECT_EQ(binned->value, binned->bounds->lower);
-  EXPECT_FALSE(bias({}, Precision::exact));
+  EXPECT_FALSE(bias({}, Resolution::exact));
 }
 
 TEST(ScoreTally, KeepsTheTwoWorstAndTheWorstOfEachOutcome) {
@@ -164,7 +161,7 @@ TEST(ScoreTally, KeepsTheTwoWorstAndTheWorstOfEachOutcome) {
       tally_of({score(Outcome::agree, 1e-9), score(Outcome::missed, 5), score(Outcome::shallow, 2),
                 score(Outcome::missed, 5), score(Outcome::missed, 7),
                 score(Outcome::unsupported, 0), score(Outcome::crashed, 0)},
-               Precision::binned);
+               Resolution::eighths);
   std::vector<std::uint64_t> indices;
   for (const Case& c : tally.worst) indices.push_back(c.index);
   EXPECT_THAT(indices, testing::ElementsAre(6, 4, 2, 0));  // of equal ones, 1 and 3, neither
@@ -174,16 +171,30 @@ TEST(ScoreTally, KeepsTheFirstOfEquallyBadCases) {
   Score s;
   s.outcome = Outcome::missed;
   s.severity = 1;
-  ScoreTally tally(Precision::exact);
+  ScoreTally tally(Resolution::exact);
   for (const std::uint64_t index : {7U, 9U, 2U, 5U}) tally.add(0, index, s);
   std::vector<std::uint64_t> indices;
   for (const Case& c : tally.worst) indices.push_back(c.index);
   EXPECT_THAT(indices, testing::ElementsAre(2, 5));
 }
 
+TEST(ScoreTally, KeepsTheLargestDoubleForWhatIsBeyond) {
+  Score s;
+  s.outcome = Outcome::overdeep;
+  s.depth_error = -std::numeric_limits<double>::infinity();
+  s.normal_regret = std::numeric_limits<double>::quiet_NaN();
+  s.severity = std::numeric_limits<double>::infinity();
+  constexpr double largest = std::numeric_limits<double>::max();
+  const ScoreTally tally = tally_of({s}, Resolution::eighths);
+  EXPECT_EQ(tally.statistics().depth_error->max, largest);
+  EXPECT_EQ(tally.statistics().normal_regret->median, largest);
+  EXPECT_EQ(tally.worst[0].score.depth_error, -largest);
+  EXPECT_EQ(tally.worst[0].score.severity, largest);
+}
+
 TEST(Magnitudes, HaveTheLargestDoubleForWhatIsNotFinite) {
-  for (const Precision precision : {Precision::exact, Precision::binned}) {
-    Magnitudes m(precision);
+  for (const Resolution resolution : {Resolution::exact, Resolution::eighths}) {
+    Magnitudes m(resolution);
     m.add(-std::numeric_limits<double>::infinity());
     m.add(std::numeric_limits<double>::quiet_NaN());
     EXPECT_EQ(m.quantiles()->median, std::numeric_limits<double>::max());
@@ -194,15 +205,55 @@ TEST(Magnitudes, HaveTheLargestDoubleForWhatIsNotFinite) {
 TEST(Magnitudes, BoundEveryValue) {
   constexpr double smallest = std::numeric_limits<double>::denorm_min();
   for (const double value : {0.0, smallest, 1e-300, 0.999, 1.0, 1.2499999, 1.25, 3e7, 1.7e308}) {
-    Magnitudes m(Precision::binned);
+    Magnitudes m(Resolution::eighths);
     m.add(-value);
     m.add(1e308 * 1.79);
-    const auto bounds = m.percentile(50);
-    EXPECT_LE(bounds->lower, value);
-    EXPECT_GE(bounds->upper, value);
-    EXPECT_LE(bounds->upper, bounds->lower * 1.125 + 1e-307) << value;
+    const Bounds bounds = m.ranked(1);
+    EXPECT_LE(bounds.lower, value);
+    EXPECT_GE(bounds.upper, value);
+    EXPECT_LE(bounds.upper, bounds.lower * 1.125 + 1e-307) << value;
   }
-  EXPECT_FALSE(Magnitudes(Precision::binned).percentile(50));
+  EXPECT_FALSE(Magnitudes(Resolution::eighths).quantiles());
+}
+
+Magnitudes exactly(const std::vector<double>& values) {
+  Magnitudes result(Resolution::exact);
+  for (const double v : values) result.add(v);
+  return result;
+}
+
+TEST(Magnitudes, HaveQuantilesByNearestRank) {
+  std::vector<double> values;
+  for (int i = 200; i >= 1; --i) values.push_back(i);
+  const Quantiles q = *exactly(values).quantiles();
+  EXPECT_EQ(q.median, 100);
+  EXPECT_EQ(q.p99, 198);
+  EXPECT_EQ(q.max, 200);
+  EXPECT_FALSE(q.median_bounds);
+  EXPECT_EQ(exactly({7}).quantiles()->p99, 7);
+  EXPECT_FALSE(exactly({}).quantiles());
+}
+
+TEST(Magnitudes, CountHalfDecadesAndZerosApart) {
+  EXPECT_EQ(exactly({0, 1e-3, 2e-3, 5e-3, 0.5, 0}).half_decades(),
+            (LogHistogram{2, -6, {2, 1, 0, 0, 0, 1}}));
+  EXPECT_EQ(exactly({0}).half_decades(), (LogHistogram{1, 0, {}}));
+  EXPECT_FALSE(exactly({}).half_decades());
+  const LogHistogram beyond = *exactly({1e-300, 1e300}).half_decades();  // in the outermost ones
+  EXPECT_EQ(beyond.first, -36);
+  EXPECT_EQ(beyond.counts.size(), 48u);
+  EXPECT_EQ(beyond.counts.front() + beyond.counts.back(), 2u);
+}
+
+TEST(CoverageTally, CountsSharesFromBelow) {
+  CoverageTally tally{Magnitudes(Resolution::exact)};
+  EXPECT_FALSE(tally.shares());
+  for (int i = 0; i <= 200; ++i) tally.add(i / 200.0);
+  const Shares s = *tally.shares();
+  EXPECT_NEAR(s.mean, 0.5, 1e-12);
+  EXPECT_NEAR(s.median, 0.5, 1e-12);
+  EXPECT_NEAR(s.p1, 0.01, 1e-12);
+  EXPECT_EQ(s.min, 0);
 }
 
 Configuration turned(double angle, const Shape& b) {
@@ -251,11 +302,10 @@ TEST(Trends, HaveTheLastDecadeForWhatIsBeyondTheLargestDouble) {
 }
 
 TEST(Trends, EveryJudgedAnswerLiesInOneDecade) {
-  Campaign campaign;
-  campaign.pairs = {Pair::plane, Pair::sphere};
-  campaign.classes = {"general-shallow", "far-from-origin"};
-  campaign.candidates = find_candidates({"reference", "capsule"});
-  campaign.count = 5;
+  Campaign campaign{.pairs = {Pair::plane, Pair::sphere},
+                    .classes = {"general-shallow", "far-from-origin"},
+                    .candidates = find_candidates({"reference", "capsule"}),
+                    .count = 5};
   std::size_t missed = 0;
   for (const Trend& trend : make_report(campaign, "x").trends) {
     EXPECT_FALSE(trend.pair == "cylinder-sphere" && trend.variable == "tilt");
@@ -272,44 +322,6 @@ TEST(Trends, EveryJudgedAnswerLiesInOneDecade) {
   }
   // The inscribed capsule misses the shallow contacts at the rim.
   EXPECT_GT(missed, 0u);
-}
-
-TEST(Statistics, SharesCountFromBelow) {
-  std::vector<double> values;
-  for (int i = 0; i <= 200; ++i) values.push_back(i / 200.0);
-  const Shares s = *shares(values);
-  EXPECT_NEAR(s.mean, 0.5, 1e-12);
-  EXPECT_NEAR(s.median, 0.5, 1e-12);
-  EXPECT_NEAR(s.p1, 0.01, 1e-12);
-  EXPECT_EQ(s.min, 0);
-  EXPECT_FALSE(shares({}));
-}
-
-TEST(Statistics, QuantilesAreNearestRank) {
-  std::vector<double> values;
-  for (int i = 200; i >= 1; --i) values.push_back(i);
-  const Quantiles q = *quantiles(values);
-  EXPECT_EQ(q.median, 100);
-  EXPECT_EQ(q.p99, 198);
-  EXPECT_EQ(q.max, 200);
-  EXPECT_EQ(quantiles({7})->p99, 7);
-  EXPECT_FALSE(quantiles({}));
-}
-
-TEST(LogHistogram, CountsHalfDecadesAndZerosApart) {
-  const LogHistogram h = log_histogram({0, 1e-3, 2e-3, 5e-3, 0.5, 0});
-  EXPECT_EQ(h.zero, 2u);
-  EXPECT_EQ(h.first, -6);
-  EXPECT_EQ(h.counts, (std::vector<std::uint64_t>{2, 1, 0, 0, 0, 1}));
-}
-
-TEST(LogHistogram, KeepsWhatIsBeyondItsEnds) {
-  const LogHistogram h = log_histogram({1e-300, 1e300});
-  EXPECT_EQ(h.first, -36);
-  EXPECT_EQ(h.counts.size(), 48u);
-  EXPECT_EQ(h.counts.front() + h.counts.back(), 2u);
-  EXPECT_EQ(log_histogram({}), LogHistogram{});
-  EXPECT_EQ(log_histogram({0}), (LogHistogram{1, 0, {}}));
 }
 
 using testing::ElementsAre;

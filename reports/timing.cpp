@@ -109,7 +109,7 @@ std::vector<double> over_cells(const Times& times, const std::vector<std::size_t
       const Repetitions& of_cell = times[cell][candidate];
       values.push_back(value(of_cell[r % of_cell.size()]));
     }
-    result.push_back(quantiles(std::move(values))->median);
+    result.push_back(touchstone::spread(std::move(values))->median);
   }
   return result;
 }
@@ -122,7 +122,7 @@ Times time_queries(const Campaign& campaign, const std::vector<PoseClass>& cells
                    const std::vector<std::optional<Sample>>& samples,
                    std::vector<CandidateProcess>& candidates) {
   Times times(samples.size(), std::vector<Repetitions>(campaign.candidates.size()));
-  if (interrupted() || campaign.given || !campaign.is_timed) return times;
+  if (interrupted() || !campaign.is_timed) return times;
   std::vector<std::size_t> timed;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const bool wanted = !campaign.classes.empty() || is_timed(cells[i]);

@@ -17,7 +17,6 @@
 
 #include "candidates/candidates.hpp"
 #include "properties/files/answer_json.hpp"
-#include "reports/make_report.hpp"
 #include "reports/test_data/given_answers.hpp"
 #include "reports/test_data/test_data.hpp"
 #include "suite/touchstone_suite.hpp"
@@ -440,12 +439,7 @@ TEST(Verdicts, OfTouchstoneScoreAreThoseOfTheScore) {
   std::ifstream in(answers().file);
   const ReadAnswers read = read_answers(in, {}, {nullptr, identities(suite_1())});
   EXPECT_TRUE(read.errors.empty());
-  Campaign campaign;
-  campaign.given = &read.answers;
-  campaign.candidates = {&read.answers.candidate};
-  campaign.seed = read.seed;
-  campaign.workers = 2;
-  const Report report = make_report(campaign, "x");
+  const Report report = report_of(read.answers, read.seed, Bar(), 2, "x");
   using Counts = std::map<std::string, std::uint64_t>;
   std::map<std::string, Counts> expected, reported;
   for (std::size_t i = 0; i < data().size(); ++i) {

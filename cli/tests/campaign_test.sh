@@ -10,7 +10,7 @@ expect 0 '^1 pose class × 1 = 1 configuration, 1 candidate; ' campaign $lying -
   --out "$folder/one"
 expect 0 '^4 configurations' campaign --pair cylinder-sphere --class cap,side --count 2e0 --candidates reference \
   --out "$folder/c"
-expect 2 'already holds a campaign, in shard-.*jsonl: ./touchstone campaign .*--class cap,side.*choose another folder' \
+expect 2 'already holds a campaign, in shard-.*bin: ./touchstone campaign .*--class cap,side.*choose another folder' \
   campaign --out "$folder/c"
 expect 2 'already holds a campaign, in shard-.*choose another folder' merge "$folder/c" --out "$folder/c"
 expect 0 '^4 configurations' merge "$folder/c" --out "$folder/m"

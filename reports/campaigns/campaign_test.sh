@@ -32,7 +32,7 @@ await() {
     sleep 0.05
   done
 }
-begins_with_done() { grep -q '"done":\[\[0,' "$1/shard-1-of-1.jsonl"; }
+begins_with_done() { grep -q '"done":\[\[0,' "$1/shard-1-of-1.bin"; }
 
 # refused PATTERN COMMAND…: exit code 2, with the pattern in what is printed.
 refused() {
@@ -74,10 +74,10 @@ done
 for shard in $(shuf -i 1-7 --random-source="$program"); do
   campaign --workers 1 --shard "$shard/7" --out seven >/dev/null 2>&1 || fail "shard $shard/7"
 done
-"$program" merge $(ls seven/shard-*.jsonl | shuf --random-source="$program") --out seven-merged \
+"$program" merge $(ls seven/shard-*.bin | shuf --random-source="$program") --out seven-merged \
   >/dev/null || fail "merge"
 same seven-merged "seven shards in random order"
-cmp -s whole/shard-1-of-1.jsonl seven-merged/shard-1-of-1.jsonl || fail "another merged shard file"
+cmp -s whole/shard-1-of-1.bin seven-merged/shard-1-of-1.bin || fail "another merged shard file"
 
 # Runs of many classes, the last one short: split among shards and ranks, and killed.
 few() { "$program" campaign --group everyday --candidates reference,bullet --count 40 "$@"; }
@@ -103,20 +103,20 @@ cmp -s few/campaign.json few-killed/campaign.json || fail "another result: few, 
 # Merging refuses what does not belong together; what is missing may be run later.
 mkdir empty
 refused 'both hold' "$program" merge seven whole --out none
-refused 'are missing' "$program" merge seven/shard-[1-5]*.jsonl --out none
+refused 'are missing' "$program" merge seven/shard-[1-5]*.bin --out none
 refused 'seed is 1, not 2' campaign --seed 2 --out whole --resume
 refused 'cut in another way' campaign --shard 1/3 --out seven
 refused 'already holds a campaign' campaign --out whole
 refused 'already holds a campaign' "$program" merge seven --out whole
 refused 'cut in another way' "$program" merge seven --out seven
 mkdir renamed
-cp seven/shard-1-of-7.jsonl renamed/shard-2-of-7.jsonl
-refused 'shard-2-of-7.jsonl" is shard 1/7' campaign --shard 2/7 --out renamed --resume
+cp seven/shard-1-of-7.bin renamed/shard-2-of-7.bin
+refused 'shard-2-of-7.bin" is shard 1/7' campaign --shard 2/7 --out renamed --resume
 refused 'must hold shard files' "$program" merge empty --out none
 refused 'damaged, cut short, or something else' "$program" merge mpi.log --out none
 refused '--shard' campaign --shard 8/7 --out none
 refused '--checkpoint' campaign --checkpoint 0 --out none
-"$program" merge seven/shard-[1-5]*.jsonl --partial --out partial >/dev/null || fail "merge --partial"
+"$program" merge seven/shard-[1-5]*.bin --partial --out partial >/dev/null || fail "merge --partial"
 grep -q '"complete": false' partial/campaign.json || fail "a partial result is not marked"
 campaign --out partial --resume >/dev/null 2>&1
 same partial "a partial merge that was finished"
@@ -145,23 +145,23 @@ grep -q "^  .* --out 'stopped here' --resume$" stop.log || fail "it does not say
 
 # A checkpoint that was cut short is refused, and so is one with a changed byte.
 cp -r 'stopped here' cut
-truncate -s -20 cut/shard-1-of-1.jsonl
+truncate -s -20 cut/shard-1-of-1.bin
 refused 'damaged, cut short' endless --out cut --resume
-cp 'stopped here/shard-1-of-1.jsonl' cut/
-printf X | dd of=cut/shard-1-of-1.jsonl bs=1 seek=2000 conv=notrunc 2>/dev/null
+cp 'stopped here/shard-1-of-1.bin' cut/
+printf X | dd of=cut/shard-1-of-1.bin bs=1 seek=2000 conv=notrunc 2>/dev/null
 refused 'damaged, cut short' endless --out cut --resume
 
 # A full disk: an error, the last checkpoint intact, and on with it once there is room.
 mkdir full
-if mount -t tmpfs -o size=96k tmpfs full 2>/dev/null; then
+if mount -t tmpfs -o size=152k tmpfs full 2>/dev/null; then
   mounted=yes
   campaign --workers 1 --shard 1/2 --out full >/dev/null 2>&1 || fail "no room for one shard"
-  mv full/shard-1-of-2.jsonl kept
-  cp kept full/shard-1-of-2.jsonl
-  head -c 92000 /dev/zero >full/ballast 2>/dev/null
+  mv full/shard-1-of-2.bin kept
+  cp kept full/shard-1-of-2.bin
+  head -c 148000 /dev/zero >full/ballast 2>/dev/null
   refused 'No space left' campaign --shard 1/2 --out full --resume
-  cmp -s kept full/shard-1-of-2.jsonl || fail "a full disk has damaged the checkpoint"
-  [ ! -e full/shard-1-of-2.jsonl.partial ] || fail "a full disk leaves half a file"
+  cmp -s kept full/shard-1-of-2.bin || fail "a full disk has damaged the checkpoint"
+  [ ! -e full/shard-1-of-2.bin.partial ] || fail "a full disk leaves half a file"
   rm full/ballast
   campaign --shard 1/2 --out full --resume >/dev/null 2>&1 || fail "no way on after a full disk"
 else
@@ -177,8 +177,8 @@ if command -v faketime >/dev/null; then
   victim=$!
   await begins_with_done jump
   echo '-10y' >clock
-  before=$(head -n 1 jump/shard-1-of-1.jsonl)
-  there_is_another() { [ "$(head -n 1 jump/shard-1-of-1.jsonl)" != "$before" ]; }
+  before=$(head -n 1 jump/shard-1-of-1.bin)
+  there_is_another() { [ "$(head -n 1 jump/shard-1-of-1.bin)" != "$before" ]; }
   await there_is_another
   kill -KILL "$victim"
   wait "$victim" 2>/dev/null

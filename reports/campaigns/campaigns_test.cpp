@@ -1,8 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <limits>
 #include <map>
-#include <random>
 #include <rapidcheck.h>
 
 #include <nlohmann/json.hpp>
@@ -10,6 +8,7 @@
 #include "candidates/candidates.hpp"
 #include "properties/files/disk.hpp"
 #include "reference/invalid_input.hpp"
+#include "reports/campaigns/made_up_test.hpp"
 #include "reports/campaigns/shard.hpp"
 #include "reports/terminal.hpp"
 
@@ -145,9 +144,8 @@ TEST(Units, AreCountedByCells) {
 }
 
 TEST(Plans, HaveRoomForTheCoverageOfAllClasses) {
-  Campaign all;
-  all.pairs = {std::begin(all_pairs), std::end(all_pairs)};
-  all.coverage = Coverage::triples;
+  Campaign all{.pairs = {std::begin(all_pairs), std::end(all_pairs)},
+               .coverage = Coverage::triples};
   const double one = 1 / CoverageTally::unit;
   const double sum = static_cast<double>(Plan::max_count * cells(all).size()) * one;
   EXPECT_LT(sum, 0x1p64);
@@ -161,110 +159,12 @@ TEST(Shards, AreReadOrRefused) {
   }
 }
 
-ScoreTally tally_of(const std::vector<Score>& scores, std::size_t first, std::size_t last) {
-  ScoreTally tally(Precision::binned);
-  for (std::size_t i = first; i < last; ++i) tally.add(3, i, scores[i]);
-  return tally;
-}
-ScoreTally tally_of(const std::vector<Score>& scores) { return tally_of(scores, 0, scores.size()); }
-
-/// Every outcome, errors of any magnitude and sign, present or not.
-Score some_score(std::mt19937_64& random) {
-  const auto maybe = [&]() -> std::optional<double> {
-    if (random() % 2 == 0) return std::nullopt;
-    const double fraction = static_cast<double>(random() % 2001) / 1000 - 1;
-    return std::ldexp(fraction, static_cast<int>(random() % 90) - 70);
-  };
-  Score s;
-  s.outcome = all_outcomes[random() % all_outcomes.size()];
-  for (const ScoreTally::Quantity& quantity : ScoreTally::quantities) s.*quantity.value = maybe();
-  if (random() % 2 == 0) s.coverage = static_cast<double>(random() % 101) / 100;
-  s.points = static_cast<int>(random() % 9);
-  s.severity = static_cast<double>(random() % 4);  // many ties
-  return s;
-}
-
-TEST(TallyJson, IsReadBackToTheLastBitAndAddsUp) {
-  std::mt19937_64 random(1);
-  std::vector<Score> scores(300);
-  for (Score& s : scores) s = some_score(random);
-  ScoreTally sum(Precision::binned);
-  for (std::size_t first = 0; first < scores.size(); first += 100) {
-    const ScoreTally part = tally_of(scores, first, first + 100);
-    sum.add(tally_from_json(json::parse(to_json(part).dump()), 3));
-  }
-  const json whole = to_json(tally_of(scores));
-  EXPECT_EQ(to_json(sum).dump(), whole.dump());
-  EXPECT_GT(whole["outcomes"]["not-asked"], 0);
-}
-
-TEST(TallyJson, OfAFileWithoutTheDeepestPointHasTheRest) {
-  Score s;
-  s.depth_error = 0.25;
-  json old = to_json(tally_of({s, s}));
-  old.erase("deepest_error");
-  const Statistics read = tally_from_json(old, 3).statistics();
-  EXPECT_FALSE(read.deepest_error);
-  EXPECT_EQ(read.depth_error->max, 0.25);
-  old.erase("depth_error");
-  EXPECT_THROW(tally_from_json(old, 3), InvalidInput);
-}
-
-TEST(TallyJson, HasTheLargestDoubleForWhatIsBeyond) {
-  Score s;
-  s.outcome = Outcome::overdeep;
-  s.depth_error = -std::numeric_limits<double>::infinity();
-  s.normal_regret = std::numeric_limits<double>::quiet_NaN();
-  s.severity = std::numeric_limits<double>::infinity();
-  constexpr double largest = std::numeric_limits<double>::max();
-  const json written = to_json(tally_of({s}));
-  EXPECT_EQ(written["depth_error"]["max"], largest);
-  EXPECT_EQ(written["worst"][0]["depth_error"], -largest);
-  EXPECT_EQ(written["worst"][0]["severity"], largest);
-  EXPECT_EQ(tally_of({s}).statistics().normal_regret->median, largest);
-}
-
-/// A plan without plug-ins: parts are made up, not run.
-json plan(std::uint64_t seed = 1) {
-  return {{"version", "0"},
-          {"command", "./touchstone campaign"},
-          {"program", "./touchstone"},
-          {"seed", seed},
-          {"count", 1000},
-          {"unit_size", Unit::max_size},
-          {"run_size", run_size},
-          {"tolerance", 1e-4},
-          {"threshold", 0},
-          {"classes",
-           {{{"pair", "cylinder-sphere"}, {"class", "general-shallow"}},
-            {{"pair", "cylinder-box"}, {"class", "rim-face"}}}},
-          {"candidates", {{{"name", "one"}}, {{"name", "two"}, {"runs", "wasm"}}}}};
-}
-
-/// Units first … last − 1 of it, with scores that follow from their indices.
+/// Units first … last − 1.
 ShardState part_of(const json& plan, std::uint64_t first, std::uint64_t last) {
-  ShardState p(plan_from_json(plan), Shard{});
-  for (std::uint64_t number = first; number < last; ++number) {
-    const Unit unit = p.plan.cut.unit(number);
-    std::vector<ScoreTally> tallies(p.tallies.size(), ScoreTally(Precision::binned));
-    for (std::uint64_t i = unit.first; i < unit.last; ++i) {
-      for (std::size_t k = 0; k < 2; ++k) {
-        Score s;
-        s.depth_error = 1e-9 * static_cast<double>((i * 7919 + k) % 1009);
-        s.severity = *s.depth_error;
-        s.outcome = i % 5 == k ? Outcome::shallow : Outcome::agree;
-        tallies[unit.cell * 2 + k].add(unit.cell, i, s);
-      }
-    }
-    UnitSet done;
-    done += UnitSet::interval_type(number, number + 1);
-    p.add(done, tallies);
-  }
-  return p;
+  return made_up_part(plan, Shard{}, UnitSet(UnitSet::interval_type(first, last)));
 }
-
 ShardState part(std::uint64_t first, std::uint64_t last, std::uint64_t seed = 1) {
-  return part_of(plan(seed), first, last);
+  return part_of(made_up_plan(1000, seed), first, last);
 }
 
 std::string merged(const std::vector<ShardState>& parts) {
@@ -283,10 +183,9 @@ TEST(Merge, DoesNotDependOnTheSplitNorOnTheOrder) {
 
 TEST(Merge, OfACandidateThatHangsIsTheSameForEverySplit) {
   add_file(TOUCHSTONE_TEST_PLUGINS "/touchstone-sabotage.so");
-  Campaign campaign;
-  campaign.pairs = {Pair::sphere};
-  campaign.classes = {"touching", "cap"};
-  campaign.candidates = find_candidates({"reference", "misdeed:5"});
+  Campaign campaign{.pairs = {Pair::sphere},
+                    .classes = {"touching", "cap"},
+                    .candidates = find_candidates({"reference", "misdeed:5"})};
   campaign.limits.seconds = 0.01;
   campaign.count = Unit::max_size + 20;
   const Plan plan = make_plan(campaign, "x");
@@ -312,15 +211,14 @@ TEST(Merge, OfACandidateThatHangsIsTheSameForEverySplit) {
 }
 
 TEST(Merge, ReadsAShardThatIsLargerThanOtherFiles) {
-  Campaign campaign;
-  campaign.pairs = {Pair::sphere};
-  campaign.classes = {"cap"};
-  campaign.candidates = find_candidates({"reference"});
-  campaign.count = 1;
+  Campaign campaign{.pairs = {Pair::sphere},
+                    .classes = {"cap"},
+                    .candidates = find_candidates({"reference"}),
+                    .count = 1};
   std::string text = to_text(ShardState(make_plan(campaign, "x"), {}));
-  text.erase(text.rfind('\n', text.size() - 2) + 1);  // its checksum
+  text.resize(text.size() - 9);  // without its checksum
   text.insert(text.find('\n'), max_file_size, ' ');
-  text += json{{"crc32", checksum(text)}}.dump() + '\n';
+  text += checksum(text) + '\n';
   const std::filesystem::path file = testing::TempDir() + "a large shard";
   write_file(file, text, "file");
   EXPECT_EQ(read_shard(file, "file").plan.candidates, std::vector<std::string>{"reference"});
@@ -334,16 +232,6 @@ TEST(Merge, SumsUpByGroupsAlone) {
   for (const json& row : result["summary"]) EXPECT_EQ(row["class"], "everyday");
   EXPECT_EQ(result["classes"][1]["arrangement"], "rim-face");
   for (const json& worst : result["worst"]) EXPECT_EQ(worst["group"], "everyday");
-}
-
-TEST(TallyJson, OfAFileWithoutSignsKnowsNoBias) {
-  const ShardState p = part(0, 1);
-  json tally = to_json(p.tallies[0]);
-  EXPECT_TRUE(tally_from_json(tally, 0).statistics().bias);
-  tally.erase("too_deep");
-  const Statistics s = tally_from_json(tally, 0).statistics();
-  EXPECT_FALSE(s.bias);
-  EXPECT_TRUE(s.depth_error);
 }
 
 TEST(Merge, RefusesWhatOverlapsWhatIsMissingAndWhatIsForeign) {
@@ -368,11 +256,11 @@ TEST(Merge, RefusesWhatOverlapsWhatIsMissingAndWhatIsForeign) {
 }
 
 TEST(Merge, RefusesPartsThatAreCutIntoUnitsOfAnotherSize) {
-  json other = plan();
+  json other = made_up_plan();
   other["unit_size"] = 2 * Unit::max_size;
   EXPECT_THAT([&] { plan_from_json(other); },
               ThrowsMessage<InvalidInput>(HasSubstr("campaign.unit_size is 1024")));
-  other = plan();
+  other = made_up_plan();
   other.erase("run_size");  // one of before units were joined to runs
   EXPECT_THAT([&] { plan_from_json(other); },
               ThrowsMessage<InvalidInput>(HasSubstr("campaign.run_size")));
@@ -398,30 +286,15 @@ TEST(ShardFile, IsReadBackToTheLastBit) {
   EXPECT_EQ(to_text(shard_from_text(text, "file")), text);
 }
 
-TEST(ShardFile, IsWrittenAgainFromTheLinesThatHaveChanged) {
-  ShardState state = part(0, 3);
-  ShardLines lines(state);
-  const auto text = [&] {
-    std::string result;
-    for (const std::string& line : lines.all()) result += line;
-    return result;
-  };
-  EXPECT_EQ(text(), to_text(state));
-  const ShardState more = part(3, 4);  // of the second class alone
-  state.add(more.done, more.tallies);
-  lines.renew(1);
-  EXPECT_EQ(text(), to_text(state));
-}
-
 TEST(ShardFile, IsRefusedWhenCountsBelongToAnotherClass) {
-  json three = plan();
+  json three = made_up_plan();
   three["classes"].push_back({{"pair", "cylinder-plane"}, {"class", "lying"}});
   // Two runs: both units of the first class, one of the others.
   ShardState state = part_of(three, 0, 4);
   EXPECT_EQ(to_text(shard_from_text(to_text(state), "file")), to_text(state));
-  for (std::size_t k = 0; k < 2; ++k) std::swap(state.tally(0, k), state.tally(1, k));
+  std::swap(state.samples[0], state.samples[1]);
   EXPECT_THAT([&] { shard_from_text(to_text(state), "file"); },
-              ThrowsMessage<InvalidInput>(HasSubstr("counts of less than what is done")));
+              ThrowsMessage<InvalidInput>(HasSubstr("counts of something else than what is done")));
 }
 
 // Answers of its units would come from another session than in a campaign that was never stopped.
@@ -451,13 +324,16 @@ TEST(ShardFile, IsRefusedWhenAnythingInItHasChanged) {
 }
 
 TEST(ShardFile, IsRefusedWhenItIsIntactButSomethingElse) {
-  const auto with_checksum = [](const std::string& body) {
-    return body + json{{"crc32", checksum(body)}}.dump() + '\n';
-  };
-  for (const std::string body :
-       {"{\"schema\":\"touchstone-shard-9\"}\n", "{}\n", "[]\n", "no JSON\n",
-        "{\"schema\":\"touchstone-shard-3\",\"shard\":[1,1],\"done\":[],\"campaign\":{}}\n"}) {
-    EXPECT_THROW(shard_from_text(with_checksum(body), "file"), InvalidInput) << body;
+  const std::string text = to_text(part(0, 2));
+  const std::string whole = text.substr(0, text.size() - 9);  // without its checksum
+  const std::string head = whole.substr(0, whole.find('\n') + 1);
+  for (const std::string& body :
+       {std::string("{\"schema\":\"touchstone-shard-9\"}\n"), std::string("{}\n"),
+        std::string("[]\n"), std::string("no JSON\n"),
+        std::string("{\"schema\":\"touchstone-shard-4\",\"shard\":[1,1],") +
+            "\"done\":[],\"campaign\":{}}\n",
+        head, head + std::string(64, '\xff'), whole + 'x'}) {
+    EXPECT_THROW(shard_from_text(body + checksum(body) + '\n', "file"), InvalidInput) << body;
   }
 }
 

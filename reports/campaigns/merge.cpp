@@ -15,7 +15,6 @@
 #include "properties/files/given_text.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/campaigns/shard.hpp"
-#include "reports/factors.hpp"
 #include "reports/make_report.hpp"
 #include "reports/report_json.hpp"
 
@@ -83,47 +82,6 @@ bool exchange(const ShardState& part, Merge& merge) {
   return true;
 }
 
-ResultRow row(const ScoreTally& tally, const std::string& pair, const std::string& pose_class,
-              const std::string& candidate) {
-  ResultRow result;
-  result.pair = pair;
-  result.pose_class = pose_class;
-  result.candidate = candidate;
-  result.statistics = tally.statistics();
-  return result;  // campaigns do not time candidates
-}
-
-WorstCase worst_case(const ShardState& whole, const Case& c, const std::string& candidate) {
-  const PoseClass& cell = whole.plan.cells[c.cell];
-  const Identity identity{cell, whole.plan.seed, c.index};
-  const std::string id = to_string(identity);
-  const std::string replay = whole.plan.program + " replay " + id;
-  return {pair_name(cell.pair),
-          group_name(cell.group()),
-          cell.name(),
-          candidate,
-          c.score,
-          {id, make_configuration(identity), std::nullopt, {}, replay}};
-}
-
-/// Adds the summary of one candidate under a heading, and its worst cases there.
-void add_summary(Report& report, const ShardState& whole, const Heading& heading,
-                 std::size_t candidate) {
-  const std::string& name = whole.plan.candidates[candidate];
-  ScoreTally sum(Precision::binned);
-  std::vector<Case> cases;
-  for (const std::size_t cell : heading.cells) {
-    const ScoreTally& tally = whole.tally(cell, candidate);
-    sum.add(tally);
-    cases.insert(cases.end(), tally.worst.begin(), tally.worst.end());
-  }
-  report.summary.push_back(row(sum, heading.pair, group_name(heading.group), name));
-  if (heading.pair == "all") return;
-  for (const Case& c : worst_of_heading(std::move(cases))) {
-    report.worst.push_back(worst_case(whole, c, name));
-  }
-}
-
 }  // namespace
 
 void Merge::add(const ShardState& part, const std::string& file) {
@@ -139,7 +97,7 @@ void Merge::add(const ShardState& part, const std::string& file) {
                        fmt::format("it and \"{}\" both hold {}", earlier.file,
                                    describe(part.plan, both.begin()->lower())));
   }
-  sum_.front().add(part.done, part.tallies);
+  sum_.front().add(part.done, part.samples);
   parts_.push_back({file, part.done});
 }
 
@@ -206,7 +164,6 @@ bool gather(const ShardState& part, Merge& merge) {
 
 Report campaign_result(const ShardState& whole) {
   const Plan& plan = whole.plan;
-  const std::size_t candidates = plan.candidates.size();
   Report report;
   report.version = plan.version;
   report.command = plan.command;
@@ -214,53 +171,37 @@ Report campaign_result(const ShardState& whole) {
   report.tolerance = plan.tolerance;
   report.threshold = plan.threshold;
   report.planned = {plan.cut.cells, plan.cut.cells * plan.cut.count};
-  report.completed = {plan.cut.cells, configurations(plan.cut, whole.done)};
-  report.configurations = report.completed.configurations;
-  for (std::size_t k = 0; k < candidates; ++k) {
+  for (std::size_t k = 0; k < plan.candidates.size(); ++k) {
     CandidateDescription& candidate = report.candidates.emplace_back();
     candidate.name = plan.candidates[k];
     candidate.runs = plan.runs[k];
   }
-  for (const PoseClass& cell : plan.cells) {
-    report.classes.push_back(description_of(cell));
-  }
-
-  for (std::size_t cell = 0; cell < plan.cells.size(); ++cell) {
-    for (std::size_t k = 0; k < candidates; ++k) {
-      const ScoreTally& tally = whole.tally(cell, k);
-      report.results.push_back(row(tally, pair_name(plan.cells[cell].pair), plan.cells[cell].name(),
-                                   plan.candidates[k]));
-      report.results.back().worst_index = worst_failure(tally);
-    }
-  }
-  for (const Heading& heading : headings(plan.cells, [](std::size_t) { return true; })) {
-    for (std::size_t k = 0; k < candidates; ++k) add_summary(report, whole, heading, k);
-  }
-  report.factors = factors(report);
-  report.contrasts = contrasts(report);
+  Scored scored{plan.cells, {}};
+  for (const Sample& sample : whole.samples) scored.samples.push_back(&sample);
+  scored.replay = [&](const Identity& identity, const std::vector<std::string>&) {
+    return plan.program + " replay " + to_string(identity);
+  };
+  add_results(report, scored);
   return report;
 }
 
 std::string campaign_json(const ShardState& whole) {
   const Report report = campaign_result(whole);
   const json plan = json::parse(whole.plan.text);
-  json results = json::array(), summary = json::array(), worst = json::array();
-  json factors = json::array(), contrasts = json::array(), classes = json::array();
-  for (const ResultRow& row : report.results) results.push_back(to_json(row));
-  for (const ResultRow& row : report.summary) summary.push_back(to_json(row));
-  for (const WorstCase& w : report.worst) worst.push_back(to_json(w));
-  for (const Factor& f : report.factors) factors.push_back(to_json(f));
-  for (const Contrast& c : report.contrasts) contrasts.push_back(to_json(c));
-  for (const PoseClassDescription& c : report.classes) classes.push_back(to_json(c));
+  const auto list = [](const auto& values) {
+    json result = json::array();
+    for (const auto& value : values) result.push_back(to_json(value));
+    return result;
+  };
   json result = {{"schema", "touchstone-campaign-3"},
                  {"configurations", report.configurations},
                  {"complete", report.completed.configurations == report.planned.configurations},
-                 {"results", results},
-                 {"summary", summary},
-                 {"classes", classes},
-                 {"factors", factors},
-                 {"contrasts", contrasts},
-                 {"worst", worst}};
+                 {"results", list(report.results)},
+                 {"summary", list(report.summary)},
+                 {"classes", list(report.classes)},
+                 {"factors", list(report.factors)},
+                 {"contrasts", list(report.contrasts)},
+                 {"worst", list(report.worst)}};
   for (const char* member :
        {"version", "command", "seed", "count", "tolerance", "threshold", "candidates"}) {
     result[member] = plan.at(member);

@@ -113,9 +113,8 @@ bool run_shard(const Campaign& campaign, ShardState& state, const std::filesyste
   if (options.progress) progress.emplace("configurations", configurations(cut, left));
   std::uint64_t scored = 0;
   Clock::time_point written = Clock::now();
-  ShardLines lines(state);
   const auto checkpoint = [&] {
-    write_shard(lines, file);
+    write_shard(state, file);
     written = Clock::now();
   };
   checkpoint();  // tells at once whether it can be done
@@ -125,16 +124,14 @@ bool run_shard(const Campaign& campaign, ShardState& state, const std::filesyste
     const std::uint64_t length = cut.run_length();
     const auto first_unit = [&](std::uint64_t run) { return nth(left, run * length); };
     all = sample(
-        campaign, Purpose::campaign, (boost::icl::cardinality(left) + length - 1) / length,
+        scorer(campaign, Resolution::eighths),
+        (boost::icl::cardinality(left) + length - 1) / length,
         [&](std::uint64_t run) { return cut.run(first_unit(run)); },
         [&](std::uint64_t run, const std::vector<Sample>& samples) {
           const std::uint64_t first = first_unit(run);
           for (std::size_t i = 0; i < samples.size(); ++i) {
             const Unit unit = cut.unit(first + i);
-            for (std::size_t k = 0; k < samples[i].tallies.size(); ++k) {
-              state.tally(unit.cell, k).add(samples[i].tallies[k]);
-            }
-            lines.renew(unit.cell);
+            state.samples[unit.cell].add(samples[i]);
             scored += unit.last - unit.first;
           }
           state.done += UnitSet::interval_type(first, first + samples.size());
@@ -144,10 +141,7 @@ bool run_shard(const Campaign& campaign, ShardState& state, const std::filesyste
           }
         },
         go_on,
-        [&] {  // hundreds of megabytes, in which workers have no part
-          state.tallies = {};
-          lines.forget();
-        });
+        [&] { state.samples = {}; });  // hundreds of megabytes, in which workers have no part
   } catch (const InvalidInput&) {
     throw;  // the file cannot be written
   } catch (const std::exception&) {

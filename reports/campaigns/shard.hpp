@@ -99,61 +99,36 @@ std::string checksum(std::string_view text);
 /// Of all of them, one after the other.
 std::string checksum(std::span<const std::string> texts);
 
-/// How far one shard has come: the tallies of the units that are done, and no others.
+/// How far one shard has come: the samples of the units that are done, and no others.
 struct ShardState {
   ShardState(Plan plan, Shard shard);
 
-  /// Adds the tallies of some units, in the order of `tallies`. The units must not be done yet.
-  void add(const UnitSet& units, const std::vector<ScoreTally>& added);
-  ScoreTally& tally(std::size_t cell, std::size_t candidate) {
-    return tallies[cell * plan.candidates.size() + candidate];
-  }
-  const ScoreTally& tally(std::size_t cell, std::size_t candidate) const {
-    return tallies[cell * plan.candidates.size() + candidate];
-  }
+  /// Adds the samples of some units, one of each cell. The units must not be done yet.
+  void add(const UnitSet& units, const std::vector<Sample>& added);
 
   Plan plan;
   Shard shard;
   UnitSet done;
-  std::vector<ScoreTally> tallies;  ///< binned; cell by cell, of every candidate
+  std::vector<Sample> samples;  ///< of each cell, by eighths
 };
 
-// A shard file is JSON Lines: what it is (schema, shard, done, plan), a line for each tally, and a
-// line with the checksum of all that comes before. It is at once checkpoint and result.
+// A shard file is at once checkpoint and result: a line of JSON that says what it is (schema,
+// shard, done, plan), the samples as the bytes of properties/files/bytes.hpp, and a line with the
+// checksum of all that comes before.
 
-/// shard-3-of-7.jsonl
+/// shard-3-of-7.bin
 std::filesystem::path shard_file(const std::filesystem::path& folder, const Shard& shard);
 /// Those in a folder, by name.
 std::vector<std::filesystem::path> shard_files(const std::filesystem::path& folder);
 
-/// The lines of a shard file, for one that is written again and again: those of tallies stay as
-/// they are until they are made anew.
-class ShardLines {
- public:
-  /// The state must outlive them.
-  explicit ShardLines(const ShardState& state);
-
-  /// Tallies of this cell have changed.
-  void renew(std::size_t cell);
-  /// Frees the memory.
-  void forget() { lines_ = {}; }
-  /// All of the file, each with its end; makes those that are missing.
-  const std::vector<std::string>& all();
-
- private:
-  const ShardState& state_;
-  std::vector<std::string> lines_;  ///< in the file's order; empty: to be made anew
-};
-
 /// Writes a shard file as a whole or not at all. Throws InvalidInput (field "--out") where that
 /// cannot be done.
-void write_shard(ShardLines& lines, const std::filesystem::path& file);
 void write_shard(const ShardState& state, const std::filesystem::path& file);
 
 std::string to_text(const ShardState& state);
 /// `file` is what errors call it. Throws InvalidInput where the text is damaged, cut short, or of
 /// something else.
-ShardState shard_from_text(const std::string& text, const std::string& file);
+ShardState shard_from_text(std::string_view text, const std::string& file);
 
 /// Reads a shard file. Throws InvalidInput, with this field where the file cannot be read.
 ShardState read_shard(const std::filesystem::path& file, const char* field);
@@ -161,12 +136,6 @@ ShardState read_shard(const std::filesystem::path& file, const char* field);
 /// [[first, last], …], and back; throws InvalidInput on anything else.
 nlohmann::json to_json(const UnitSet& set);
 UnitSet unit_set_from_json(const nlohmann::json& json);
-
-/// A binned tally as it stands in a shard file.
-nlohmann::json to_json(const ScoreTally& tally);
-/// Reads a tally whose cases are all of this cell. Throws InvalidInput on anything else than
-/// to_json gives.
-ScoreTally tally_from_json(const nlohmann::json& json, std::size_t cell);
 
 /// Held by one process at a time, and let go when it ends, however it does: a record lock, which
 /// its children do not hold.

@@ -8,11 +8,34 @@
 #include <vector>
 
 #include "properties/files/configuration_json.hpp"
-#include "reports/campaign.hpp"
+#include "reports/report.hpp"
 
 namespace touchstone {
 
 // Files of answers that were computed elsewhere (docs/suite.md).
+
+/// An answer that was computed elsewhere; smaller than an Answer, for there may be a million.
+struct GivenAnswer {
+  std::string id;
+  std::uint64_t index;  ///< of the identity; in the class "given", of the configuration in its file
+  std::optional<Configuration> configuration;  ///< absent: the identity's
+  ts_status status;
+  double signed_distance;
+  Vec3 normal;
+  std::vector<ts_point> points;
+
+  Answer answer() const;
+};
+
+/// Answers that were computed elsewhere, to be scored like those of a candidate that is asked.
+struct GivenAnswers {
+  struct OfCell {
+    PoseClass cell;
+    std::vector<GivenAnswer> answers;  ///< no two with the same index
+  };
+  Candidate candidate;  ///< what is said of it: name, version, settings
+  std::vector<OfCell> cells;
+};
 
 /// What is said of the routine that gave the answers, in place of the file's first line.
 struct GivenDescription {
@@ -63,5 +86,9 @@ struct ReadAnswers {
 /// routine, or an improper one.
 ReadAnswers read_answers(std::istream& in, const GivenDescription& description,
                          const Wanted& wanted);
+
+/// The report of answers of this seed, scored in so many workers, as of a candidate that is asked.
+Report report_of(const GivenAnswers& given, std::uint64_t seed, const Bar& bar, unsigned workers,
+                 const std::string& command);
 
 }  // namespace touchstone

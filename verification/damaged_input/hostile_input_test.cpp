@@ -23,7 +23,7 @@
 #include "properties/laws/failure_file.hpp"
 #include "reference/contact_of.hpp"
 #include "reference/invalid_input.hpp"
-#include "reports/campaigns/shard.hpp"
+#include "reports/campaigns/made_up_test.hpp"
 #include "reports/compare.hpp"
 #include "reports/make_report.hpp"
 #include "reports/report_json.hpp"
@@ -201,10 +201,8 @@ TEST(HostileInput, FilesOfAnswers) {
   expect_answer_or_refusal("answers", 6, {file}, [](const std::string& text, std::uint64_t) {
     std::istringstream in(text);
     const ReadAnswers read_ones = read_answers(in, {}, {});
-    Campaign campaign;
-    campaign.given = &read_ones.answers;
     std::uint64_t count = 0;
-    for (const PoseClass& cell : cells(campaign)) count += count_of(campaign, cell);
+    for (const auto& of_cell : read_ones.answers.cells) count += of_cell.answers.size();
     if (count != read_ones.count) throw std::runtime_error("not one answer a good line");
     if (!read_ones.errors.empty()) throw InvalidInput("line", "bad", "was told");
   });
@@ -319,73 +317,33 @@ TEST(HostileInput, Reports) {
                            });
 }
 
-/// Shards without plug-ins: scores are made up, not found.
 std::string shard_text(const Shard& shard) {
-  const json plan = {{"version", "0"},
-                     {"command", "./touchstone campaign"},
-                     {"program", "./touchstone"},
-                     {"seed", 1},
-                     {"count", 600},
-                     {"unit_size", Unit::max_size},
-                     {"run_size", run_size},
-                     {"tolerance", 1e-4},
-                     {"threshold", 0},
-                     {"classes",
-                      {{{"pair", "cylinder-sphere"}, {"class", "general-deep"}},
-                       {{"pair", "cylinder-box"}, {"class", "rim-face"}}}},
-                     {"candidates", {{{"name", "one"}}, {{"name", "two"}}}}};
-  ShardState p(plan_from_json(plan), shard);
-  p.done = shard.units(p.plan.cut);
-  for (std::uint64_t number = 0; number < p.plan.cut.units(); ++number) {
-    if (!boost::icl::contains(p.done, number)) continue;
-    const Unit unit = p.plan.cut.unit(number);
-    for (std::uint64_t i = unit.first; i < unit.last; ++i) {
-      for (std::size_t k = 0; k < 2; ++k) {
-        Score s;
-        s.depth_error = 1e-9 * static_cast<double>((i * 7919 + k) % 1009);
-        s.severity = *s.depth_error;
-        s.coverage = 0.5;
-        s.points = static_cast<int>(i % 4);
-        s.outcome = i % 5 == k ? Outcome::shallow : Outcome::agree;
-        p.tally(unit.cell, k).add(unit.cell, i, s);
-      }
-    }
-  }
-  return to_text(p);
+  const json plan = made_up_plan(600);
+  return to_text(made_up_part(plan, shard, Shard{}.units(plan_from_json(plan).cut)));
 }
 
 TEST(HostileInput, ShardFiles) {
-  // Changed line by line, and given the checksum that then is right: else nothing but that is read.
-  std::vector<std::string> texts;
-  for (const std::string& whole : {shard_text({1, 1}), shard_text({2, 2})}) {
-    texts.push_back(whole.substr(0, whole.rfind('\n', whole.size() - 2) + 1));
-  }
-  const auto changed_in_a_line = [](const std::string& text, std::uint64_t number) {
-    std::vector<std::string> lines;
-    std::istringstream in(text);
-    for (std::string line; std::getline(in, line);) lines.push_back(line);
-    std::string& line = lines[number % lines.size()];
-    line = Mutation(number).of(line);
-    std::string result;
-    for (const std::string& each : lines) result += each + '\n';
-    return result;
+  const std::vector<std::string> texts = {shard_text({1, 1}), shard_text({2, 2})};
+  // Of three in four the first line is changed, and the checksum then right: else nothing but that
+  // is read.
+  const auto changed = [&](std::uint64_t number) {
+    const std::string& whole = texts[number % texts.size()];
+    const std::size_t line_end = whole.find('\n'), checksum_at = whole.size() - 9;
+    const std::string body = Mutation(number).of(whole.substr(0, line_end)) +
+                             whole.substr(line_end, checksum_at - line_end);
+    return body + checksum(body) + '\n';
   };
-  expect_answer_or_refusal(
-      "shard file", 6, texts, [&](const std::string& text, std::uint64_t number) {
-        const std::string& whole = texts[number % texts.size()];
-        const std::string body = number == 0       ? text
-                                 : number % 4 == 0 ? text
-                                                   : changed_in_a_line(whole, number);
-        current_text = body;
-        Merge merge;
-        merge.add(shard_from_text(body + json{{"crc32", checksum(body)}}.dump() + '\n', "file"),
-                  "file");
-        const ShardState merged = merge.whole(true);
-        require_numbers(json::parse(campaign_json(merged)));
-        if (shows_nan(terminal_table(campaign_result(merged)), body)) {
-          throw std::runtime_error("nan");
-        }
-      });
+  expect_answer_or_refusal("shard file", 6, texts,
+                           [&](const std::string& text, std::uint64_t number) {
+                             current_text = number % 4 == 0 ? text : changed(number);
+                             Merge merge;
+                             merge.add(shard_from_text(current_text, "file"), "file");
+                             const ShardState merged = merge.whole(true);
+                             require_numbers(json::parse(campaign_json(merged)));
+                             if (shows_nan(terminal_table(campaign_result(merged)), current_text)) {
+                               throw std::runtime_error("nan");
+                             }
+                           });
 }
 
 TEST(HostileInput, NumbersOfOptions) {
