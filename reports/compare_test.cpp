@@ -9,17 +9,17 @@
 
 #include <nlohmann/json.hpp>
 
-#include "candidates/candidates.hpp"
 #include "reference/invalid_input.hpp"
-#include "reports/make_report.hpp"
 #include "reports/report_json.hpp"
+#include "reports/small_report_test.hpp"
 
 namespace touchstone {
 namespace {
 
 using nlohmann::json;
+using testing::ElementsAre;
 using testing::HasSubstr;
-using testing::Not;
+using testing::ThrowsMessage;
 
 /// A row with an agreement of `agree` in 100, a 99th percentile of `error`, a time of `time` ns
 /// give or take 1% and Bullet at 100 ns.
@@ -93,6 +93,10 @@ std::vector<std::string> changes(const Comparison& comparison) {
   return result;
 }
 
+/// The small report and what became of it.
+Comparison compared_with(const json& now) { return compare(small_report(), now, {}); }
+std::vector<std::string> changes_to(const json& now) { return changes(compared_with(now)); }
+
 std::string remarks(const Comparison& comparison) {
   std::string text;
   for (const std::string& remark : comparison.remarks) text += remark + '\n';
@@ -110,7 +114,7 @@ TEST(Compare, OfAReportWithItselfFindsNothing) {
 TEST(Compare, NamesPairClassCandidateAndFactorOfALargerError) {
   json now = small_report();
   now["results"][1] = row("rim-face", "mine", 80, 3e-6, 200);
-  const Comparison c = compare(small_report(), now, {});
+  const Comparison c = compared_with(now);
   EXPECT_THAT(changes(c), testing::UnorderedElementsAre("worse rim-face mine depth error, median",
                                                         "worse rim-face mine depth error, p99",
                                                         "worse rim-face mine depth error, max"));
@@ -134,7 +138,7 @@ TEST(Compare, ADeepestPointThatLosesItsDepthIsARegressionWhereBothReportsKnowIt)
     return report;
   };
   EXPECT_THAT(changes(compare(with_deepest(1e-9), with_deepest(1e-3), {})),
-              testing::ElementsAre("worse rim-face mine deepest point's error, max"));
+              ElementsAre("worse rim-face mine deepest point's error, max"));
   EXPECT_TRUE(compare(small_report(), with_deepest(1e-3), {}).changes.empty());
   EXPECT_TRUE(compare(with_deepest(1e-3), small_report(), {}).changes.empty());
 }
@@ -153,7 +157,7 @@ TEST(Compare, OfACandidateThatWasStoppedCountsChangesBeyondChanceAlone) {
   EXPECT_TRUE(c.changes.empty());
   EXPECT_THAT(remarks(c), HasSubstr("mine times out so often"));
   const Comparison far = compare(small_report(), stopped(33), {});
-  EXPECT_THAT(changes(far), testing::ElementsAre("worse rim-face mine agreement"));
+  EXPECT_THAT(changes(far), ElementsAre("worse rim-face mine agreement"));
   EXPECT_DOUBLE_EQ(far.changes[0].after, 0.33);
   EXPECT_TRUE(compare(stopped(33), stopped(33), {}).changes.empty());
 }
@@ -178,7 +182,7 @@ TEST(Compare, RoundingIsNoChange) {
 TEST(Compare, AnErrorBeyondAllOthersHasAFactor) {
   json now = small_report();
   now["results"][1]["depth_error"]["max"] = 1e308;
-  const Comparison c = compare(small_report(), now, {});
+  const Comparison c = compared_with(now);
   ASSERT_EQ(c.changes.size(), 1u);
   EXPECT_TRUE(c.changes[0].factor && std::isfinite(*c.changes[0].factor));
 }
@@ -186,24 +190,23 @@ TEST(Compare, AnErrorBeyondAllOthersHasAFactor) {
 TEST(Compare, LostAgreementIsARegressionUnlessAllowed) {
   json now = small_report();
   now["results"][1] = row("rim-face", "mine", 79, 1e-6, 200);
-  const Comparison c = compare(small_report(), now, {});
-  EXPECT_THAT(changes(c), testing::ElementsAre("worse rim-face mine agreement"));
+  const Comparison c = compared_with(now);
+  EXPECT_THAT(changes(c), ElementsAre("worse rim-face mine agreement"));
   CompareLimits limits;
   limits.agreement = 0.98;
   EXPECT_FALSE(compare(small_report(), now, limits).has_regressed());
   // None before, some now.
   json none = small_report();
   none["results"][1] = row("rim-face", "mine", 0, 1e-6, 200);
-  EXPECT_THAT(changes(compare(none, now, {})),
-              testing::ElementsAre("better rim-face mine agreement"));
+  EXPECT_THAT(changes(compare(none, now, {})), ElementsAre("better rim-face mine agreement"));
   EXPECT_TRUE(compare(now, none, {}).has_regressed());
 }
 
 TEST(Compare, ALostRoutineIsARegression) {
   json now = small_report();
   now["results"][1]["outcomes"] = {{"unsupported", 100}};
-  const Comparison c = compare(small_report(), now, {});
-  EXPECT_THAT(changes(c), testing::ElementsAre("worse rim-face mine has a routine"));
+  const Comparison c = compared_with(now);
+  EXPECT_THAT(changes(c), ElementsAre("worse rim-face mine has a routine"));
   EXPECT_TRUE(c.has_regressed());
   EXPECT_THAT(comparison_text(c), HasSubstr("yes ->         no"));
   EXPECT_FALSE(compare(now, small_report(), {}).has_regressed());
@@ -219,14 +222,13 @@ TEST(Compare, TimesCountAsMultiplesOfTheBaseline) {
       }
     }
   }
-  EXPECT_TRUE(compare(small_report(), now, {}).changes.empty());
+  EXPECT_TRUE(compared_with(now).changes.empty());
   CompareLimits other;
   other.baseline = "mine";
   EXPECT_TRUE(compare(small_report(), now, other).changes.empty());
   now["results"][1] = row("rim-face", "mine", 80, 1e-6, 400);
-  EXPECT_THAT(changes(compare(small_report(), now, {})),
-              testing::ElementsAre("slower rim-face mine time"));
-  EXPECT_FALSE(compare(small_report(), now, {}).has_regressed());
+  EXPECT_THAT(changes_to(now), ElementsAre("slower rim-face mine time"));
+  EXPECT_FALSE(compared_with(now).has_regressed());
   CompareLimits strict;
   strict.time_counts = true;
   EXPECT_TRUE(compare(small_report(), now, strict).has_regressed());
@@ -237,7 +239,7 @@ TEST(Compare, TimesWhoseSpreadsReachWithinTheFactorAreNoChange) {
   json now = small_report();
   now["results"][1] = row("rim-face", "mine", 80, 1e-6, 400);
   now["results"][1]["nanoseconds"]["ratio_low"] = 3;  // before: 1.98 to 2.02
-  EXPECT_TRUE(compare(small_report(), now, {}).changes.empty());
+  EXPECT_TRUE(compared_with(now).changes.empty());
 }
 
 TEST(Compare, WithoutTheBaselineTimesAreNotCompared) {
@@ -251,9 +253,8 @@ TEST(Compare, CountsInstructionsWhereBothHaveThem) {
   json old = small_report(), now = small_report();
   old["results"][1]["nanoseconds"]["instructions"] = 1000;
   now["results"][1]["nanoseconds"]["instructions"] = 1600;
-  EXPECT_THAT(changes(compare(old, now, {})),
-              testing::ElementsAre("slower rim-face mine instructions"));
-  EXPECT_TRUE(compare(small_report(), now, {}).changes.empty());
+  EXPECT_THAT(changes(compare(old, now, {})), ElementsAre("slower rim-face mine instructions"));
+  EXPECT_TRUE(compared_with(now).changes.empty());
 }
 
 TEST(Compare, SaysWhatIsOnlyInOne) {
@@ -261,7 +262,7 @@ TEST(Compare, SaysWhatIsOnlyInOne) {
   now["candidates"][1]["name"] = "yours";
   now["results"] = {row("rim-face", "bullet", 90, 1e-3, 100), row("lying", "yours", 1, 1, 1)};
   now["summary"][1]["candidate"] = "yours";
-  const std::string said = remarks(compare(small_report(), now, {}));
+  const std::string said = remarks(compared_with(now));
   EXPECT_THAT(said, HasSubstr("old report, not compared: candidates mine."));
   EXPECT_THAT(said, HasSubstr("new report, not compared: candidates yours."));
   EXPECT_THAT(said, HasSubstr("old report, not compared: classes cylinder-box/touching."));
@@ -272,7 +273,7 @@ TEST(Compare, NamesTheRowsThatOneOfThemLacks) {
   json now = small_report();
   now["results"].erase(3);
   EXPECT_THAT(
-      remarks(compare(small_report(), now, {})),
+      remarks(compared_with(now)),
       HasSubstr("Only in the old report, not compared: rows cylinder-box/touching of mine."));
   EXPECT_THAT(
       remarks(compare(now, small_report(), {})),
@@ -293,7 +294,7 @@ TEST(Compare, SaysWhatElseDiffers) {
   now["partial"] = true;
   now["machine"]["cpu"] = "two";
   now["candidates"][1]["version"] = "2";
-  const std::string said = remarks(compare(small_report(), now, {}));
+  const std::string said = remarks(compared_with(now));
   EXPECT_THAT(said, HasSubstr("seed 1 and 2"));
   EXPECT_THAT(said, HasSubstr("tolerance 0.0001 and 0.001"));
   EXPECT_THAT(said, HasSubstr("new report is partial"));
@@ -306,10 +307,9 @@ TEST(Compare, OfOtherConfigurationsTakesPairsAsAWholeBeyondChance) {
   now["seed"] = 2;
   now["results"][1] = row("rim-face", "mine", 10, 1, 200);     // no matter
   now["summary"][1] = row("everyday", "mine", 70, 1e-6, 200);  // 80 of 100 or 70: chance
-  EXPECT_TRUE(compare(small_report(), now, {}).changes.empty());
+  EXPECT_TRUE(compared_with(now).changes.empty());
   now["summary"][1] = row("everyday", "mine", 50, 1e-6, 200);
-  EXPECT_THAT(changes(compare(small_report(), now, {})),
-              testing::ElementsAre("worse everyday mine agreement"));
+  EXPECT_THAT(changes_to(now), ElementsAre("worse everyday mine agreement"));
 }
 
 TEST(Compare, OfOtherConfigurationsTakesEveryGroupOfWhichBothReportsHaveAllClasses) {
@@ -326,16 +326,14 @@ TEST(Compare, OfOtherConfigurationsTakesEveryGroupOfWhichBothReportsHaveAllClass
     (*report)["summary"].push_back(row("everyday", "mine", report == &old ? 80 : 10, 1, 200));
     (*report)["summary"].back()["pair"] = "all";
   }
-  EXPECT_THAT(changes(compare(old, now, {})),
-              testing::ElementsAre("worse everyday mine agreement"));
+  EXPECT_THAT(changes(compare(old, now, {})), ElementsAre("worse everyday mine agreement"));
 
   // A class of another group, and one that this version does not know.
   now["results"].push_back(row("general+far", "mine", 1, 1, 200));
-  EXPECT_THAT(changes(compare(old, now, {})),
-              testing::ElementsAre("worse everyday mine agreement"));
+  EXPECT_THAT(changes(compare(old, now, {})), ElementsAre("worse everyday mine agreement"));
   now["results"].back()["class"] = "of-tomorrow";
   EXPECT_THAT([&] { compare(old, now, {}); },
-              testing::ThrowsMessage<InvalidInput>(HasSubstr("all classes of a group")));
+              ThrowsMessage<InvalidInput>(HasSubstr("all classes of a group")));
 }
 
 TEST(Compare, AReportOfTheOldSchemaIsComparedByClassesUnderTheirNamesOfToday) {
@@ -348,11 +346,11 @@ TEST(Compare, AReportOfTheOldSchemaIsComparedByClassesUnderTheirNamesOfToday) {
   now["results"][1]["depth_error"]["p99"] = 2e-6;
   old["results"][1]["depth_error"]["p99"] = 2e-7;
   const Comparison c = compare(old, now, {});
-  EXPECT_THAT(changes(c), testing::ElementsAre("worse parallel+tilted-1e-6 mine depth error, p99"));
+  EXPECT_THAT(changes(c), ElementsAre("worse parallel+tilted-1e-6 mine depth error, p99"));
   EXPECT_THAT(remarks(c), HasSubstr("old report is of schema 1, which knows no groups"));
   now["seed"] = 2;
   EXPECT_THAT([&] { compare(old, now, {}); },
-              testing::ThrowsMessage<InvalidInput>(HasSubstr("OLD is of schema 1")));
+              ThrowsMessage<InvalidInput>(HasSubstr("OLD is of schema 1")));
 }
 
 TEST(Compare, AReportOfTheOldJudgeIsComparedByWhatMeansTheSame) {
@@ -370,8 +368,7 @@ TEST(Compare, AReportOfTheOldJudgeIsComparedByWhatMeansTheSame) {
   EXPECT_THAT(remarks(c), HasSubstr("old report is of a schema before 3"));
   old["results"][1]["depth_error"]["p99"] = 2e-7;
   now["results"][1]["depth_error"]["p99"] = 2e-6;
-  EXPECT_THAT(changes(compare(old, now, {})),
-              testing::ElementsAre("worse rim-face mine depth error, p99"));
+  EXPECT_THAT(changes(compare(old, now, {})), ElementsAre("worse rim-face mine depth error, p99"));
   now["schema"] = 2;
   EXPECT_EQ(changes(compare(old, now, {})).size(), 4u);
   // What no longer finds the contacts has no errors of depth.
@@ -381,7 +378,7 @@ TEST(Compare, AReportOfTheOldJudgeIsComparedByWhatMeansTheSame) {
     now["results"][1][errors] = nullptr;
   }
   EXPECT_THAT(changes(compare(old, now, {})),
-              testing::ElementsAre("worse rim-face mine agreement in depth"));
+              ElementsAre("worse rim-face mine agreement in depth"));
 }
 
 TEST(Compare, AClassOfAnotherCountIsOfOtherConfigurations) {
@@ -390,7 +387,7 @@ TEST(Compare, AClassOfAnotherCountIsOfOtherConfigurations) {
     now["results"][i]["count"] = 50;
     now["results"][i]["outcomes"] = {{"agree", 50}};
   }
-  const Comparison c = compare(small_report(), now, {});
+  const Comparison c = compared_with(now);
   EXPECT_TRUE(c.changes.empty());
   EXPECT_THAT(remarks(c), HasSubstr("100 and 50 of a class"));
 }
@@ -412,12 +409,11 @@ TEST(Compare, AnswersToOtherConfigurationsAreNotCompared) {
     const json before = report_of_given(pose_class, "00000000000000a1", 80);
     const Comparison same =
         compare(before, report_of_given(pose_class, "00000000000000a1", 70), {});
-    EXPECT_THAT(changes(same),
-                testing::ElementsAre(std::string("worse ") + pose_class + " mine agreement"));
+    EXPECT_THAT(changes(same), ElementsAre(std::string("worse ") + pose_class + " mine agreement"));
     EXPECT_TRUE(same.remarks.empty()) << remarks(same);
     const json other = report_of_given(pose_class, "00000000000000b2", 70);
     EXPECT_THAT([&] { compare(before, other, {}); },
-                testing::ThrowsMessage<InvalidInput>(HasSubstr("with the same configurations")));
+                ThrowsMessage<InvalidInput>(HasSubstr("with the same configurations")));
     // Beside them another class has another count, and nothing of it is left to chance.
     json both = before, both_other = other;
     for (json* const report : {&both, &both_other}) {
@@ -430,7 +426,7 @@ TEST(Compare, AnswersToOtherConfigurationsAreNotCompared) {
     both_other["summary"] = json::array();
     both_other["results"][1]["outcomes"] = {{"agree", 59}, {"shallow", 41}};
     const Comparison c = compare(both, both_other, {});
-    EXPECT_THAT(changes(c), testing::ElementsAre("worse touching mine agreement"));
+    EXPECT_THAT(changes(c), ElementsAre("worse touching mine agreement"));
     EXPECT_THAT(remarks(c), HasSubstr(std::string("Answers to other configurations, not compared: "
                                                   "cylinder-box/") +
                                       pose_class + ".\n"));
@@ -447,13 +443,13 @@ TEST(Compare, NamesTheFirstOfManyClasses) {
   for (int i = 0; i < 30; ++i) {
     now["results"].push_back(row(("z" + std::to_string(i)).c_str(), "mine", 1, 1, 1));
   }
-  EXPECT_THAT(remarks(compare(small_report(), now, {})), HasSubstr(" and 10 more."));
+  EXPECT_THAT(remarks(compared_with(now)), HasSubstr(" and 10 more."));
 }
 
 TEST(Compare, RefusesReportsWithNothingInCommon) {
   json now = small_report();
   now["results"] = now["summary"] = json::array();
-  EXPECT_THROW(compare(small_report(), now, {}), InvalidInput);
+  EXPECT_THROW(compared_with(now), InvalidInput);
 }
 
 TEST(Compare, TextFitsIntoEightyColumns) {
@@ -477,7 +473,7 @@ TEST(Compare, WritesEveryChangeAsJson) {
   json now = small_report();
   now["results"][1]["outcomes"] = {{"unsupported", 100}};
   now["summary"][1] = row("everyday", "mine", 80, 1e-6, 400);
-  const json written = json::parse(comparison_json(compare(small_report(), now, {})));
+  const json written = json::parse(comparison_json(compared_with(now)));
   EXPECT_EQ(written["schema"], "touchstone-comparison-1");
   EXPECT_EQ(written["before"]["seed"], 1);
   EXPECT_EQ(written["after"]["machine"]["cpu"], "one");
@@ -496,13 +492,12 @@ TEST(Compare, WritesEveryChangeAsJson) {
 
 /// The plug-in of testing/sabotage.cpp, worse than it is by this number.
 json report_of_declining(const char* by) {
-  if (added_candidates().empty()) add_file(TOUCHSTONE_TEST_PLUGINS "/touchstone-sabotage.so");
+  add_test_plugin("touchstone-sabotage.so");
   setenv("TOUCHSTONE_DECLINE", by, 1);
-  Campaign c;
-  c.pairs = {Pair::plane};
-  c.classes = {"lying", "standing", "general-shallow"};
-  c.candidates = find_candidates({"bullet", "declining"});
-  c.count = 20;
+  Campaign c{.pairs = {Pair::plane},
+             .classes = {"lying", "standing", "general-shallow"},
+             .candidates = find_candidates({"bullet", "declining"}),
+             .count = 20};
   json report = to_json(make_report(c, "x"));
   unsetenv("TOUCHSTONE_DECLINE");
   return report;

@@ -30,11 +30,10 @@ class ReportFile : public testing::Test {
   }
   static json good() {
     static const json report = [] {
-      Campaign c;
-      c.pairs = {Pair::plane};
-      c.classes = {"lying"};
-      c.candidates = find_candidates({"reference", "bullet", "libccd-mpr"});
-      c.count = 2;
+      Campaign c{.pairs = {Pair::plane},
+                 .classes = {"lying"},
+                 .candidates = find_candidates({"reference", "bullet", "libccd-mpr"}),
+                 .count = 2};
       return to_json(make_report(c, "x"));
     }();
     return report;

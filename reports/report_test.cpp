@@ -11,15 +11,14 @@
 
 #include <nlohmann/json.hpp>
 
-#include "candidates/candidates.hpp"
 #include "candidates/host/interruption.hpp"
 #include "oracle/truth.hpp"
 #include "properties/files/disk.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/covered_pairs.hpp"
-#include "reports/make_report.hpp"
 #include "reports/replay.hpp"
 #include "reports/report_json.hpp"
+#include "reports/small_report_test.hpp"
 #include "reports/solve.hpp"
 #include "reports/terminal.hpp"
 
@@ -33,40 +32,13 @@ using testing::Not;
 
 json report_of(const Campaign& campaign) { return to_json(make_report(campaign, "x")); }
 
-/// Our own routines and three engines; the others differ in nothing that is tested here.
-std::vector<const Candidate*> some() {
-  return find_candidates({"reference", "bullet", "ode", "prism:8"});
-}
-
-Campaign small_campaign(unsigned workers = 2) {
-  Campaign c;
-  c.pairs = {Pair::plane, Pair::box};
-  c.classes = {"general-shallow", "touching", "concentric"};
-  c.candidates = some();
-  c.count = 4;
-  c.seed = 5;
-  c.workers = workers;
-  return c;
-}
-
-json without_timing(json report) {
-  for (const char* list : {"results", "summary"}) {
-    for (json& row : report[list]) {
-      for (const char* timed : {"nanoseconds", "pareto", "tied_with"}) row.erase(timed);
-    }
-  }
-  report.erase("wall_seconds");
-  report.erase("oracle_microseconds");
-  return report;
-}
-
 TEST(Report, DoesNotDependOnTheNumberOfWorkers) {
-  EXPECT_EQ(without_timing(report_of(small_campaign(1))),
-            without_timing(report_of(small_campaign(3))));
+  EXPECT_EQ(without_times(report_of(some_configurations(1))),
+            without_times(report_of(some_configurations(3))));
 }
 
 TEST(Report, HasARowForEveryPairClassAndCandidate) {
-  const json report = report_of(small_campaign());
+  const json report = to_json(report_of_some());
   // Plane has no concentric poses.
   EXPECT_EQ(report["classes"].size(), 5u);
   EXPECT_EQ(report["results"].size(), 20u);
@@ -83,7 +55,7 @@ TEST(Report, HasARowForEveryPairClassAndCandidate) {
 }
 
 TEST(Report, SaysHowOftenArrangementsOccurInScenesForItsOwnPairs) {
-  const json report = report_of(small_campaign());
+  const json report = to_json(report_of_some());
   std::map<std::string, double> sums;
   for (const json& row : report["recorded"]) {
     sums[row["pair"]] += row["share"].get<double>();
@@ -95,7 +67,7 @@ TEST(Report, SaysHowOftenArrangementsOccurInScenesForItsOwnPairs) {
 }
 
 TEST(Report, HasNoRowOverAllGroups) {
-  const json report = report_of(small_campaign());
+  const json report = to_json(report_of_some());
   std::map<std::string, std::uint64_t> in_summary, in_classes;
   for (const json& row : report["summary"]) {
     EXPECT_NO_THROW(parse_group(row["class"].get<std::string>()));
@@ -114,8 +86,8 @@ TEST(Report, HasNoRowOverAllGroups) {
 }
 
 TEST(Report, ARowsWorstIndexLeadsToItsWorstFailure) {
-  const json report = report_of(small_campaign());
-  auto candidates = start(some(), 0);
+  const json report = to_json(report_of_some());
+  auto candidates = start(some_configurations().candidates, 0);
   int failing = 0;
   for (const json& row : report["results"]) {
     const bool fails = row["outcomes"].value("agree", 0) + row["outcomes"].value("unseen", 0) +
@@ -162,7 +134,7 @@ TEST(Report, TheTableSaysWhichTimeLimitsWereExceeded) {
 }
 
 TEST(Report, RanksNobodyWithinTheSpreads) {
-  const json report = report_of(small_campaign());
+  const json report = to_json(report_of_some());
   for (const json& row : report["summary"]) {
     const json& time = row["nanoseconds"];
     ASSERT_GE(time["repetitions"], 5);
@@ -215,7 +187,7 @@ TEST(Report, MarksWhoHasNoRoutineForSomePairs) {
 }
 
 TEST(Report, InterruptedBeforeTheEndIsOfWhatIsDone) {
-  Campaign c = small_campaign(1);
+  Campaign c = some_configurations(1);
   const Interruption interruption;
   testing::internal::CaptureStderr();
   raise(SIGTERM);
@@ -232,7 +204,7 @@ TEST(Report, InterruptedBeforeTheEndIsOfWhatIsDone) {
 }
 
 TEST(Report, TellsAModelsErrorFromItsSolvers) {
-  const json report = report_of(small_campaign());
+  const json report = to_json(report_of_some());
   for (const json& row : report["results"]) {
     const bool is_model = row["candidate"] == "prism:8";
     EXPECT_EQ(row["model_error"].is_null(), !is_model || row["depth_error"].is_null());
@@ -241,14 +213,6 @@ TEST(Report, TellsAModelsErrorFromItsSolvers) {
     EXPECT_LE(row["solver_error"]["max"], 0);
     EXPECT_EQ(row["model_error"]["max"], row["depth_error"]["max"]);
   }
-}
-
-/// Other tests may have added it.
-void add_test_plugin(const char* name) {
-  const auto file = std::filesystem::canonical(TOUCHSTONE_TEST_PLUGINS) / name;
-  const auto& added = added_candidates();
-  const auto is = [&](const Added& a) { return a.value == file.string(); };
-  if (std::none_of(added.begin(), added.end(), is)) add_file(file);
 }
 
 /// A candidate that crashes, aborts, throws, allocates 10 GiB, answers NaN, long normals and a
@@ -276,13 +240,13 @@ TEST(Report, PrintsCommandsWithTheOptionsOfTheirOwnCandidatesAlone) {
 }
 
 TEST(Report, IsCompleteWhateverACandidateDoes) {
-  Campaign c = small_campaign();
+  Campaign c = some_configurations();
   c.count = 40;
   c.pairs = {Pair::plane, Pair::cylinder};
   c.limits.seconds = 10;  // sanitizers take their time over a crash
-  const json alone = without_timing(report_of(c));
+  const json alone = without_times(report_of(c));
   c.candidates.push_back(&sabotage());
-  const json together = without_timing(report_of(c));
+  const json together = without_times(report_of(c));
   // Each misdeed is counted …
   std::map<std::string, int> outcomes;
   std::size_t sum = 0;
@@ -315,7 +279,7 @@ TEST(Report, IsCompleteWhateverACandidateDoes) {
   EXPECT_EQ(others, alone["results"]);
   // And it is the same whatever the number of workers.
   c.workers = 1;
-  EXPECT_EQ(without_timing(report_of(c)), together);
+  EXPECT_EQ(without_times(report_of(c)), together);
 }
 
 /// The candidate that does what testing/hostile.cpp calls by this name.
@@ -330,7 +294,7 @@ const Candidate* hostile(const std::string& deed) {
 TEST(Report, IsCompleteWithHostileCandidates) {
   add_test_plugin("touchstone-hostile.so");
   setenv("TOUCHSTONE_HOSTILE_EVERYWHERE", "1", 1);
-  Campaign c = small_campaign();
+  Campaign c = some_configurations();
   c.count = 1;
   c.pairs = {Pair::plane};
   c.classes = {"general-shallow", "touching"};
@@ -357,7 +321,7 @@ TEST(Report, IsCompleteWithHostileCandidates) {
 
 TEST(Report, AHangCostsOneConfigurationEach) {
   sabotage();
-  Campaign c = small_campaign();
+  Campaign c = some_configurations();
   c.classes = {"touching"};
   c.pairs = {Pair::plane};
   c.count = max_timeouts;  // beyond these it is stopped
@@ -371,7 +335,7 @@ TEST(Report, AHangCostsOneConfigurationEach) {
 
 TEST(Report, ACandidateThatHangsIsStoppedAndTheTableSaysHowMuchItWasAsked) {
   sabotage();
-  Campaign c = small_campaign(1);
+  Campaign c = some_configurations(1);
   c.classes = {"touching"};
   c.pairs = {Pair::plane};
   c.count = 40;
@@ -392,13 +356,13 @@ TEST(Report, ACandidateThatHangsIsStoppedAndTheTableSaysHowMuchItWasAsked) {
   const json read = to_json(report_from_text(written.dump(), "report"));
   EXPECT_EQ(read["results"][1]["outcomes"], written["results"][1]["outcomes"]);
   c.workers = 3;
-  EXPECT_EQ(without_timing(report_of(c)), without_timing(written));
+  EXPECT_EQ(without_times(report_of(c)), without_times(written));
 }
 
 TEST(Report, EveryWorstCaseReplaysToTheSameAnswers) {
-  const json report = report_of(small_campaign());
+  const json report = to_json(report_of_some());
   ASSERT_FALSE(report["worst"].empty());
-  auto candidates = start(some(), 0);
+  auto candidates = start(some_configurations().candidates, 0);
   for (const json& w : report["worst"]) {
     const Identity id = parse_identity(w["id"].get<std::string>());
     const json again = to_json(examine(subject(id), pointers(candidates), Bar()));
@@ -413,7 +377,7 @@ TEST(Report, EveryWorstCaseReplaysToTheSameAnswers) {
 
 TEST(Report, IsWrittenAsAWhole) {
   const std::filesystem::path folder = testing::TempDir() + "touchstone report test";
-  write_report(make_report(small_campaign(), "x"), folder);
+  write_report(report_of_some(), folder);
   std::ifstream file(folder / "report.json");
   EXPECT_EQ(json::parse(file)["schema"], report_schema);
   EXPECT_TRUE(std::filesystem::exists(folder / "report.html"));
@@ -437,7 +401,7 @@ TEST(Report, ScoresMoreOfWhatUsersAskOfFirst) {
 }
 
 TEST(Report, RefusesAnUnknownClassBeforeAnyWork) {
-  Campaign c = small_campaign();
+  Campaign c = some_configurations();
   c.classes = {"rim-rimm"};
   EXPECT_THAT([&] { cells(c); }, testing::ThrowsMessage<InvalidInput>(testing::AllOf(
                                      HasSubstr("rim-rimm"), HasSubstr("rim-face, "))));
@@ -452,7 +416,8 @@ TEST(Report, RefusesAFolderThatIsAFile) {
 
 TEST(Replay, IsTheSameOnEveryCall) {
   const Identity id{Pair::cylinder, "rim-rim", 1, 2};
-  auto candidates = start(some(), 0), again = start(some(), 0);
+  auto candidates = start(some_configurations().candidates, 0),
+       again = start(some_configurations().candidates, 0);
   const auto shown = [&](std::vector<CandidateProcess>& processes) {
     return replay_text(examine(subject(id), pointers(processes), Bar()), "");
   };
@@ -467,7 +432,7 @@ TEST(Replay, IsTheSameOnEveryCall) {
 std::vector<json> solved(const std::string& input, bool& good) {
   std::istringstream in(input);
   std::stringstream out;
-  good = solve(in, out, {some(), 1e-15, Bar()});
+  good = solve(in, out, {some_configurations().candidates, 1e-15, Bar()});
   std::vector<json> lines;
   for (std::string line; std::getline(out, line);) lines.push_back(json::parse(line));
   return lines;
@@ -561,7 +526,7 @@ TEST(Solve, EndsWhereItsAnswersAreLost) {
   std::istringstream in(on_sphere + '\n' + on_sphere + '\n' + on_sphere + '\n');
   std::ostringstream out;
   out.setstate(std::ios::badbit);
-  solve(in, out, {some(), 1e-15, Bar()});
+  solve(in, out, {some_configurations().candidates, 1e-15, Bar()});
   std::string rest;
   EXPECT_TRUE(std::getline(in, rest)) << "all lines were answered to nobody";
 }
@@ -591,9 +556,8 @@ TEST(DrakeProtocol, HasDrakesNumberOfPoses) {
 }
 
 TEST(DrakeProtocol, ReportsTheWorstErrorAndItsPose) {
-  Campaign campaign;
-  campaign.pairs = {Pair::plane, Pair::box};
-  campaign.candidates = find_candidates({"reference", "bullet"});
+  Campaign campaign{.pairs = {Pair::plane, Pair::box},
+                    .candidates = find_candidates({"reference", "bullet"})};
   auto candidates = start(campaign.candidates, campaign.bar.threshold, campaign.limits);
   const DrakeProtocol protocol = drake_protocol(campaign, candidates);
   ASSERT_EQ(protocol.results.size(), 4u);

@@ -7,16 +7,16 @@
 
 #include <nlohmann/json.hpp>
 
-#include "candidates/candidates.hpp"
 #include "candidates/host/candidate_process.hpp"
 #include "properties/laws/failure_file.hpp"
 #include "reference/invalid_input.hpp"
+#include "reports/small_report_test.hpp"
 
 namespace touchstone {
 namespace {
 
 const Candidate& planted(const char* name) {
-  if (!known_candidate("ridged")) add_file(TOUCHSTONE_TEST_PLUGINS "/touchstone-sabotage.so");
+  add_test_plugin("touchstone-sabotage.so");
   return find_candidate(name);
 }
 

@@ -7,8 +7,7 @@
 #include <regex>
 #include <sstream>
 
-#include "candidates/candidates.hpp"
-#include "reports/make_report.hpp"
+#include "reports/small_report_test.hpp"
 #include "simulation/engines/run_engines.hpp"
 
 namespace touchstone {
@@ -130,18 +129,8 @@ TEST(EnginesTable, SaysOfWhatIsHeldAndStillMovesThatItJitters) {
   EXPECT_THAT(engines_table(of_engines(restless, held)), HasSubstr(" never "));
 }
 
-Campaign some_configurations() {
-  Campaign c;
-  c.pairs = {Pair::plane, Pair::box};
-  c.classes = {"general-shallow", "touching", "concentric"};
-  c.candidates = find_candidates({"reference", "bullet", "ode", "prism:8"});
-  c.count = 4;
-  c.seed = 5;
-  return c;
-}
-
 TEST(ReportTable, FitsIntoTheTerminalsColumns) {
-  Report report = make_report(some_configurations(), "x");
+  Report report = report_of_some();
   report.partial = true;
   report.results[0].time->p95 = 1e5;
   for (const std::size_t columns : {40, 57, 80}) {
@@ -155,7 +144,7 @@ TEST(ReportTable, FitsIntoTheTerminalsColumns) {
 }
 
 TEST(ReportTable, KeepsInANarrowTerminalWhatMattersMost) {
-  const Report report = make_report(some_configurations(), "x");
+  const Report& report = report_of_some();
   const auto headings = [&](std::size_t columns) {
     const std::string table = terminal_table(report, {columns, false});
     std::istringstream line(table.substr(0, table.find('\n')));
@@ -167,7 +156,7 @@ TEST(ReportTable, KeepsInANarrowTerminalWhatMattersMost) {
 }
 
 TEST(ReportTable, ShowsTheBinOfZeroAsZero) {
-  Report report = make_report(some_configurations(), "x");
+  Report report = report_of_some();
   constexpr double denormal = 2.8e-309;
   for (ResultRow& row : report.summary) {
     row.statistics.point_error = Quantiles{0, denormal, 1};
@@ -177,7 +166,7 @@ TEST(ReportTable, ShowsTheBinOfZeroAsZero) {
 }
 
 TEST(ReportTable, ColoursChangeNothingElse) {
-  const Report report = make_report(some_configurations(), "x");
+  const Report& report = report_of_some();
   const std::string coloured = terminal_table(report, {80, true});
   EXPECT_NE(coloured, terminal_table(report));
   EXPECT_EQ(std::regex_replace(coloured, std::regex("\x1b\\[[0-9]*m"), ""), terminal_table(report));

@@ -24,11 +24,10 @@ std::string text_of(const std::filesystem::path& file) {
 
 TEST(Figures, EachComesAsPictureTwiceAndAsData) {
   if (std::system("command -v gnuplot >/dev/null 2>&1") != 0) GTEST_SKIP() << "no gnuplot here";
-  Campaign c;
-  c.pairs = {Pair::plane, Pair::box};
-  c.classes = {"general-shallow", "touching"};
-  c.candidates = find_candidates({"reference", "bullet", "prism:8"});
-  c.count = 3;
+  Campaign c{.pairs = {Pair::plane, Pair::box},
+             .classes = {"general-shallow", "touching"},
+             .candidates = find_candidates({"reference", "bullet", "prism:8"}),
+             .count = 3};
   Report report = make_report(c, "x");
   // A plug-in may be called anything.
   for (auto* rows : {&report.summary, &report.results}) {
