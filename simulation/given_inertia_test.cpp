@@ -7,9 +7,8 @@
 
 #include "reference/invalid_input.hpp"
 #include "simulation/assembly.hpp"
-#include "simulation/experiment.hpp"
+#include "simulation/each_world.hpp"
 #include "simulation/mechanism_scenes.hpp"
-#include "simulation/probed_run.hpp"
 #include "simulation/world_fixture.hpp"
 
 namespace touchstone {
@@ -100,41 +99,9 @@ TEST(GivenInertia, ThatNoBodyCanHaveIsRefused) {
               HasSubstr("bodies[0].inertia.pose.position[2] is 10000000: must lie"));
 }
 
-using States = std::vector<BodyState>;
-
-/// In our own world, or in an engine's with our contacts.
-class GivenInertiaIn : public testing::TestWithParam<std::string> {
- protected:
-  bool is_ours() const { return GetParam() == "ours"; }
-
-  /// What `probe` says after each step.
-  std::vector<double> run(const Scene& scene, const Probe& probe) const {
-    if (!is_ours()) return probed_run(scene, probe, in_engine(GetParam(), {.cured = true}));
-    return probed_run(scene, probe, [](const Scene& begun) {
-      static CandidateProcess process(find_candidate("reference"), simulation_threshold);
-      static CandidateModel model(process);  // in the run's own process
-      return in_our_world(model)(begun);
-    });
-  }
-  double end(const Scene& scene, const Probe& probe) const { return run(scene, probe).back(); }
-  /// Time at which the probe's value, positive at the start, first is not.
-  double zero_crossing(const Scene& scene, const Probe& probe) const {
-    const std::vector<double> values = run(scene, probe);
-    const auto at = std::find_if(values.begin(), values.end(), [](double v) { return v <= 0; });
-    return static_cast<double>(at - values.begin() + 1) * scene.step;
-  }
-};
-std::vector<std::string> all_worlds() {
-  std::vector<std::string> worlds = all_engines();
-  worlds.insert(worlds.begin(), "ours");
-  return worlds;
-}
-INSTANTIATE_TEST_SUITE_P(Each, GivenInertiaIn, testing::ValuesIn(all_worlds()),
-                         [](const auto& param) {
-                           std::string name = param.param;
-                           std::erase(name, '-');
-                           return name;
-                         });
+using GivenInertiaIn = EachWorld;
+INSTANTIATE_TEST_SUITE_P(Each, GivenInertiaIn, testing::ValuesIn(GivenInertiaIn::all()),
+                         GivenInertiaIn::plain_name);
 
 /// Right-handed angle about y.
 double angle_about_y(const BodyState& s) {
@@ -164,7 +131,7 @@ TEST_P(GivenInertiaIn, MakesThePeriodOfAPendulumThatHangsAtItsShapesCentre) {
     if (!has_case) scene.bodies.pop_back(), scene.joints.pop_back();
     const double omega = std::sqrt(2 * gravity_on_earth * 0.4 / weight_about_hinge);
     const double quarter =
-        zero_crossing(scene, [](const States& s) { return angle_about_y(s[0]); });
+        zero_crossing(run(scene), scene, [](const States& s) { return angle_about_y(s[0]); });
     EXPECT_NEAR(quarter, pi / 2 / omega, 3e-3) << has_case;
   }
 }
@@ -177,7 +144,7 @@ TEST_P(GivenInertiaIn, IsWhatAMotorTurns) {
   scene.bodies = {weight_below()};
   scene.joints = {hinge(0, world_body, Vec3::Zero(), Vec3::UnitY())};
   scene.joints[0].motor = rate(1000, 2 * weight_about_hinge);
-  EXPECT_NEAR(end(scene, [](const States& s) { return s[0].angular_velocity.y(); }), 1, 1e-2);
+  EXPECT_NEAR(end(scene)[0].angular_velocity.y(), 1, 1e-2);
 }
 
 // The centre of mass moves straight on, and the shape's centre about it.
@@ -191,21 +158,15 @@ TEST_P(GivenInertiaIn, KeepsTheCentreOfMassOfASpinningBodyOnALine) {
   body.velocity = way - spin.cross(body.pose.rotation() * arm);
   scene.bodies = {body};
   const Vec3 start = body.pose.position() + body.pose.rotation() * arm;
-  const auto off_line = [&](const States& s) {
-    const Vec3 centre = s[0].pose.position() + s[0].pose.rotation() * arm;
-    const Vec3 moved = centre - start;
-    return (moved - moved.dot(way) / way.squaredNorm() * way).norm();
-  };
-  const std::vector<double> off = run(scene, off_line);
-  EXPECT_LT(*std::max_element(off.begin(), off.end()), 1e-3);
-  const double spun =
-      end(scene, [&](const States& s) { return (s[0].angular_velocity - spin).norm(); });
-  EXPECT_LT(spun, 0.02);  // Bullet's explicit gyroscopic term
-  const double speed = end(scene, [&](const States& s) {
-    const Vec3 now = s[0].pose.rotation() * arm;
-    return (s[0].velocity + s[0].angular_velocity.cross(now) - way).norm();
-  });
-  EXPECT_LT(speed, 5e-3);
+  const std::vector<States> all = run(scene);
+  for (const States& states : all) {
+    const Vec3 moved = states[0].pose.position() + states[0].pose.rotation() * arm - start;
+    EXPECT_LT((moved - moved.dot(way) / way.squaredNorm() * way).norm(), 1e-3);
+  }
+  const BodyState& last = all.back()[0];
+  EXPECT_LT((last.angular_velocity - spin).norm(), 0.02);  // Bullet's explicit gyroscopic term
+  const Vec3 now = last.pose.rotation() * arm;
+  EXPECT_LT((last.velocity + last.angular_velocity.cross(now) - way).norm(), 5e-3);
 }
 
 // A push acts at the shape's centre: v = F t / m of the centre of mass, ω = r × F t / I.
@@ -216,13 +177,11 @@ TEST_P(GivenInertiaIn, AnswersAPushAtTheShapesCentre) {
   scene.duration = 6 * scene.step;
   scene.bodies = {weight_below()};
   scene.pushes = {{0, Vec3(4, 0, 0), Vec3::Zero(), 0, time}};
-  const double centre = end(scene, [](const States& s) {
-    return s[0].velocity.x() +
-           (s[0].angular_velocity.cross(s[0].pose.rotation() * Vec3(0, 0, -0.4))).x();
-  });
-  EXPECT_NEAR(centre, 4 * time / 2, 1e-3);
-  const double turned = end(scene, [](const States& s) { return s[0].angular_velocity.y(); });
-  EXPECT_NEAR(turned, 0.4 * 4 * time / 0.02, 0.03);
+  const BodyState pushed = end(scene)[0];
+  const Vec3 arm = pushed.pose.rotation() * Vec3(0, 0, -0.4);
+  const Vec3 of_centre = pushed.velocity + pushed.angular_velocity.cross(arm);
+  EXPECT_NEAR(of_centre.x(), 4 * time / 2, 1e-3);
+  EXPECT_NEAR(pushed.angular_velocity.y(), 0.4 * 4 * time / 0.02, 0.03);
 }
 
 /// A cylinder that lies on the ground, with its mass at a distance from its axis.
@@ -255,8 +214,9 @@ TEST_P(GivenInertiaIn, RocksARollerAboutTheLowestPlaceOfItsMass) {
   const double omega =
       std::sqrt(R::mass * gravity_on_earth * R::off / (R::moment + R::mass * below * below));
   // The mass is on the side of −x, and rolls back to below the axis.
+  const Scene scene = R::scene(0.05);
   const double quarter =
-      zero_crossing(R::scene(0.05), [](const States& s) { return -R::aside(s); });
+      zero_crossing(run(scene), scene, [](const States& s) { return -R::aside(s); });
   EXPECT_NEAR(quarter, pi / 2 / omega, 0.02 * pi / 2 / omega);
 }
 
@@ -280,14 +240,15 @@ struct SlopingCan {
 
 // A can tips where the mass is no longer above its foot: tan θ = r / h.
 TEST_P(GivenInertiaIn, TipsACanAtTheAngleOfItsCentreOfMass) {
-  const double share = GetParam() == "mujoco" ? 0.2 : 0.05;  // its contacts are soft
-  constexpr double stands = 0.03, tips = 0.5;                // rad
+  const double share = is_mujoco() ? 0.2 : 0.05;  // its contacts are soft
+  constexpr double stands = 0.03, tips = 0.5;     // rad
   for (const double height : {0.05, 0.2}) {
     const double paper = std::atan(SlopingCan::radius / height);
-    EXPECT_LT(end(SlopingCan::scene(height, (1 - share) * paper), SlopingCan::lean), stands)
-        << height;
-    EXPECT_GT(end(SlopingCan::scene(height, (1 + share) * paper), SlopingCan::lean), tips)
-        << height;
+    const auto lean = [&](double angle) {
+      return SlopingCan::lean(end(SlopingCan::scene(height, angle)));
+    };
+    EXPECT_LT(lean((1 - share) * paper), stands) << height;
+    EXPECT_GT(lean((1 + share) * paper), tips) << height;
   }
 }
 

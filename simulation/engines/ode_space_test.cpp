@@ -11,8 +11,8 @@
 #include <random>
 
 #include "candidates/ode_library.hpp"
+#include "simulation/each_world.hpp"
 #include "simulation/mechanism_scenes.hpp"
-#include "simulation/probed_run.hpp"
 
 namespace touchstone {
 namespace {
@@ -92,10 +92,9 @@ TEST(OdeSpaces, ACoinStaysOnARoundTableInOdesWorld) {
   scene.bodies = {fixed(table),
                   {.name = "coin", .shape = Cylinder(0.03, 0.01), .pose = at(0.2, 0.2, 0.06)}};
   for (const bool cured : {false, true}) {
-    const auto heights = probed_run(
-        scene, [](const std::vector<BodyState>& s) { return s[1].pose.position().z(); },
-        in_engine("ode", {.cured = cured}));
-    EXPECT_NEAR(heights.back(), 0.06, 1e-3) << (cured ? "with our contacts" : "with ODE's");
+    const States end = states_of(scene, in_engine("ode", {.cured = cured})).back();
+    EXPECT_NEAR(end[1].pose.position().z(), 0.06, 1e-3)
+        << (cured ? "with our contacts" : "with ODE's");
   }
 }
 
