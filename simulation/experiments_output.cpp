@@ -1,7 +1,6 @@
-#include <cmath>
-
 #include <nlohmann/json.hpp>
 
+#include "properties/files/strict_json.hpp"
 #include "simulation/engines/run_engines.hpp"
 #include "simulation/run_experiments.hpp"
 
@@ -11,23 +10,9 @@ namespace {
 using nlohmann::json;
 using Outcome = ExperimentResult::Outcome;
 
-const char* name_of(Outcome outcome) {
-  switch (outcome) {
-    case Outcome::measured:
-      return "measured";
-    case Outcome::unsupported:
-      return "unsupported";
-    case Outcome::unsound:
-      return "unsound";
-    case Outcome::crashed:
-      return "crashed";
-    case Outcome::timed_out:
-      return "timed-out";
-  }
-  return "";
-}
-
-json finite(double x) { return std::isfinite(x) ? json(x) : json(nullptr); }
+/// By outcome.
+constexpr const char* outcome_names[] = {"measured", "unsupported", "unsound", "crashed",
+                                         "timed-out"};
 
 }  // namespace
 
@@ -35,18 +20,18 @@ json to_json(const ExperimentResult& r) {
   json result = {{"experiment", r.experiment},
                  {"candidate", r.candidate},
                  {"step", r.step},
-                 {"outcome", name_of(r.outcome)}};
+                 {"outcome", outcome_names[static_cast<int>(r.outcome)]}};
   if (r.outcome == Outcome::unsupported) return result;
   if (r.outcome == Outcome::crashed || r.outcome == Outcome::timed_out) {
     result["reason"] = r.reason;
     return result;
   }
   json details = json::object();
-  for (const auto& [name, value] : r.details) details[name] = finite(value);
-  result.update({{"value", finite(r.value)},
-                 {"error", finite(r.error)},
+  for (const auto& [name, value] : r.details) details[name] = or_null(value);
+  result.update({{"value", or_null(r.value)},
+                 {"error", or_null(r.error)},
                  {"exact", r.exact},
-                 {"energy_gained", finite(r.energy_gained)},
+                 {"energy_gained", or_null(r.energy_gained)},
                  {"points", r.points},
                  {"flicker", r.flicker},
                  {"single", r.single},
@@ -54,7 +39,7 @@ json to_json(const ExperimentResult& r) {
                  {"failures", r.failures},
                  {"details", details},
                  {"steps", r.steps},
-                 {"nanoseconds", r.nanoseconds ? json(*r.nanoseconds) : json(nullptr)},
+                 {"nanoseconds", or_null(r.nanoseconds)},
                  {"microseconds_per_step", r.microseconds_per_step},
                  {"last_motion", r.last_motion},
                  {"last_time", r.last_time}});

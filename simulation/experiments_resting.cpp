@@ -1,5 +1,6 @@
 // A supported body stays where it is, also when it is released with a slight lean.
 #include <algorithm>
+#include <functional>
 #include <string>
 
 #include "simulation/experiment.hpp"
@@ -25,23 +26,34 @@ double distance_from(const Pose& now, const Pose& home, double reach) {
 }
 
 /// Runs to the end. In the second half the rocking must be over: the value is the mean kinetic
-/// energy that is left, the error the largest distance of any body from its home, in radii.
-/// `homes`: those of the last bodies of the scene. `reach`: the bodies' half length, metres.
-Measurement stay(const Scene& scene, const std::vector<Pose>& homes, const Simulator& simulator,
-                 double radius = can_radius, double reach = can_half_length) {
-  const std::size_t first = scene.bodies.size() - homes.size();
+/// energy that is left, the error the largest distance from where the bodies shall be, in radii.
+/// `distance`: that of the states, metres.
+Measurement settle(const Scene& scene, const Simulator& simulator, double radius,
+                   const std::function<double(const std::vector<BodyState>&)>& distance) {
   Run run(scene, simulator, radius);
   double farthest = 0, energy = 0;
   std::uint64_t counted = 0;
   while (run.step()) {
     if (run.time() < scene.duration / 2) continue;
-    for (std::size_t i = 0; i < homes.size(); ++i) {
-      farthest = std::max(farthest, distance_from(run.states()[first + i].pose, homes[i], reach));
-    }
+    farthest = std::max(farthest, distance(run.states()));
     energy += run.kinetic_energy();
     ++counted;
   }
   return {counted > 0 ? energy / static_cast<double>(counted) : 0, farthest / radius, run.tally()};
+}
+
+/// The same with the largest distance of any body from its home. `homes`: those of the last bodies
+/// of the scene. `reach`: the bodies' half length, metres.
+Measurement stay(const Scene& scene, const std::vector<Pose>& homes, const Simulator& simulator,
+                 double radius = can_radius, double reach = can_half_length) {
+  const std::size_t first = scene.bodies.size() - homes.size();
+  return settle(scene, simulator, radius, [&](const std::vector<BodyState>& states) {
+    double farthest = 0;
+    for (std::size_t i = 0; i < homes.size(); ++i) {
+      farthest = std::max(farthest, distance_from(states[first + i].pose, homes[i], reach));
+    }
+    return farthest;
+  });
 }
 
 Scene resting(double step) {
@@ -172,18 +184,11 @@ Measurement settling_coin(const Simulator& simulator, double step) {
   scene.bodies = {ground(0.5), moving_body("coin", Cylinder(r, h), 0.5,
                                            Pose(height * Vec3::UnitZ(),
                                                 about(Vec3(0.8, 0.6, 0), lean_of_coin)))};
-  Run run(scene, simulator, r);
-  double farthest = 0, energy = 0;
-  std::uint64_t counted = 0;
-  while (run.step()) {
-    if (run.time() < scene.duration / 2) continue;
-    const Pose& now = run.states()[1].pose;
+  return settle(scene, simulator, r, [&](const std::vector<BodyState>& states) {
+    const Pose& now = states[1].pose;
     const double tilt = now.axis().cross(Vec3::UnitZ()).norm();
-    farthest = std::max(farthest, std::abs(now.position().z() - h) + r * tilt);
-    energy += run.kinetic_energy();
-    ++counted;
-  }
-  return {counted > 0 ? energy / static_cast<double>(counted) : 0, farthest / r, run.tally()};
+    return std::abs(now.position().z() - h) + r * tilt;
+  });
 }
 
 // Resolutions, in radii of the can.
@@ -261,18 +266,26 @@ std::vector<Experiment> resting_in_engines() {
   const char* const left = "kinetic energy that stays, in weight x radius";
   const char* const way = "radii from its place";
   const auto log = [&](const char* name, const char* statement, double radius) {
-    const auto run = [radius](const Simulator& simulator, double step) {
-      return log_on_box(radius, simulator, step);
-    };
-    const auto resolution = [radius](double) { return log_resolution(radius); };
-    return Experiment{name, statement, left, way, run, zero, resolution, true, radius};
+    return Experiment{name,
+                      statement,
+                      left,
+                      way,
+                      std::bind_front(log_on_box, radius),
+                      zero,
+                      [radius](double) { return log_resolution(radius); },
+                      true,
+                      radius};
   };
   const auto tower_of = [&](const char* name, const char* statement, int count, double radius) {
-    const auto run = [count, radius](const Simulator& simulator, double step) {
-      return tower(count, radius, simulator, step);
-    };
-    const auto resolution = [count, radius](double) { return tower_resolution(count, radius); };
-    return Experiment{name, statement, left, way, run, zero, resolution, true, radius};
+    return Experiment{name,
+                      statement,
+                      left,
+                      way,
+                      std::bind_front(tower, count, radius),
+                      zero,
+                      [=](double) { return tower_resolution(count, radius); },
+                      true,
+                      radius};
   };
   const auto disc_resolution = [](double) {
     return displacement_within_layer(layer, 2 * can_radius, disc_half_length, can_radius) /

@@ -13,15 +13,16 @@
 namespace touchstone {
 namespace {
 
-struct Trial {
+/// One experiment to run.
+struct Task {
   const Experiment* experiment;
   const Candidate* candidate;
   double step;
 };
 
-/// All trials, ordered by experiment, then step, then candidate.
-std::vector<Trial> trials(const ExperimentOptions& options) {
-  std::vector<Trial> result;
+/// All tasks, ordered by experiment, then step, then candidate.
+std::vector<Task> tasks(const ExperimentOptions& options) {
+  std::vector<Task> result;
   for (const Experiment* e : options.experiments) {
     for (const double step : options.steps) {
       for (const Candidate* c : options.candidates) result.push_back({e, c, step});
@@ -75,11 +76,11 @@ std::optional<double> query_time(CandidateProcess& process,
   return *middle;
 }
 
-ExperimentResult run(const Trial& trial, CandidateProcess& process) {
+ExperimentResult run(const Task& task, CandidateProcess& process) {
   process.ask_within(simulation_threshold);  // as if it had been asked nothing before
   SamplingModel sampling(process);
-  const Measurement measured = trial.experiment->run(in_our_world(sampling), trial.step);
-  ExperimentResult r = result_of(*trial.experiment, trial.candidate->name, trial.step, measured);
+  const Measurement measured = task.experiment->run(in_our_world(sampling), task.step);
+  ExperimentResult r = result_of(*task.experiment, task.candidate->name, task.step, measured);
   if (r.outcome != ExperimentResult::Outcome::unsupported) {
     r.nanoseconds = query_time(process, sampling.sample());
   }
@@ -137,13 +138,13 @@ ExperimentDescription describe(const Experiment& experiment, const std::vector<d
 }
 
 ExperimentResults run_experiments(const ExperimentOptions& options) {
-  const std::vector<Trial> all = trials(options);
+  const std::vector<Task> all = tasks(options);
   Progress progress("experiments", all.size());
   WorkerCandidates processes(options.candidates, simulation_threshold, options.limits);
   const auto texts = run_in_processes(
       all.size(), options.workers,
       [&](std::size_t i) {
-        const std::size_t candidate = i % options.candidates.size();  // the order of the trials
+        const std::size_t candidate = i % options.candidates.size();  // the order of the tasks
         return to_bytes(run(all[i], processes.get()[candidate]));
       },
       [&](std::size_t i) { return all[i].experiment->name + " with " + all[i].candidate->name; },

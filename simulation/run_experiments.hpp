@@ -27,7 +27,7 @@ struct ExperimentOptions {
 /// Outcome of one experiment with one candidate at one step (docs/simulation.md). If the outcome is
 /// `unsupported`, `crashed` or `timed_out`, the numbers after it have no meaning.
 struct ExperimentResult {
-  enum class Outcome {
+  enum class Outcome {  // in the order of their names in experiments_output.cpp
     measured,
     unsupported,  ///< the candidate has no routine for a pair that occurred
     unsound,      ///< the motion ended beyond all bounds

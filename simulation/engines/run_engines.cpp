@@ -88,25 +88,11 @@ struct AngleOfAStep {
 }  // namespace
 
 std::string engine_shape_name(const EngineShape& shape) {
-  switch (shape.kind) {
-    case EngineShape::Kind::cylinder:
-      return "cylinder";
-    case EngineShape::Kind::no_margin:
-      return "cylinder, margin 0";
-    case EngineShape::Kind::multipoint:
-      return "cylinder, many points";
-    case EngineShape::Kind::capsule:
-      return "capsule";
-    case EngineShape::Kind::box:
-      return "box";
-    case EngineShape::Kind::spheres:
-      return "spheres:" + std::to_string(shape.count);
-    case EngineShape::Kind::hull:
-      return "hull:" + std::to_string(shape.count);
-    case EngineShape::Kind::exact:
-      return "cylinder + touchstone";
-  }
-  return "";
+  constexpr const char* names[] = {
+      "cylinder", "cylinder, margin 0",   "cylinder, many points", "capsule", "box", "spheres",
+      "hull",     "cylinder + touchstone"};
+  const std::string name = names[static_cast<int>(shape.kind)];
+  return shape.count > 0 ? name + ':' + std::to_string(shape.count) : name;
 }
 
 void check_engine_scene(const std::string& engine, const Scene& scene) {
@@ -243,19 +229,8 @@ std::vector<std::string> all_engines() {
 }
 
 const char* cure_name(Cure cure) {
-  switch (cure) {
-    case Cure::held:
-      return "held";
-    case Cure::nearer:
-      return "nearer";
-    case Cure::solver:
-      return "solver";
-    case Cure::alike:
-      return "alike";
-    case Cure::open:
-      return "open";
-  }
-  return "";
+  constexpr const char* names[] = {"held", "nearer", "solver", "alike", "open"};
+  return names[static_cast<int>(cure)];
 }
 
 Cure cure_of(const ExperimentResult& own, const ExperimentResult& cured,

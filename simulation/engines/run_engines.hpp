@@ -23,15 +23,15 @@ std::vector<std::string> all_engines();
 
 /// What stands for a cylinder in an engine's world.
 struct EngineShape {
-  enum class Kind {
-    cylinder,    ///< the engine's own, as it is by default
-    no_margin,   ///< Bullet's with margin 0
-    multipoint,  ///< the engine's own, with its option for several points of a pair
-    capsule,     ///< the largest of the cylinder's length inside it
-    box,         ///< the smallest around it
-    spheres,     ///< inside it: in a row, or in a ring when it is flat
-    hull,        ///< a regular prism with its corners on the rims
-    exact,       ///< the engine's own, with our routines installed
+  enum class Kind {  // in the order of the names in engine_shape_name
+    cylinder,        ///< the engine's own, as it is by default
+    no_margin,       ///< Bullet's with margin 0
+    multipoint,      ///< the engine's own, with its option for several points of a pair
+    capsule,         ///< the largest of the cylinder's length inside it
+    box,             ///< the smallest around it
+    spheres,         ///< inside it: in a row, or in a ring when it is flat
+    hull,            ///< a regular prism with its corners on the rims
+    exact,           ///< the engine's own, with our routines installed
   };
   Kind kind = Kind::cylinder;
   int count = 0;  ///< of spheres; sides of a hull
@@ -63,7 +63,7 @@ struct EngineDescription {
   std::string settings, best_settings;  ///< of its solver: as usual, at its best
 };
 
-/// What our contacts do to an experiment in an engine.
+/// What our contacts do to an experiment in an engine. In the order of the names in cure_name.
 enum class Cure {
   held,    ///< the answer on paper, within what the experiment resolves
   nearer,  ///< at least ten times nearer to it than the engine's own contacts, and not lost
