@@ -12,7 +12,7 @@
 #include "properties/files/disk.hpp"
 #include "properties/files/given_text.hpp"
 #include "reference/invalid_input.hpp"
-#include "simulation/scenes/scene_file.hpp"
+#include "simulation/scenes/robot_file.hpp"
 
 namespace touchstone {
 namespace {
@@ -107,13 +107,6 @@ void check_numbers(const std::string& text, int count, const std::string& field)
   throw InvalidInput(field, shown_text(text),
                      count == 1 ? "must be a number, with a decimal point and without a unit"
                                 : fmt::format("must be {} numbers between spaces", count));
-}
-
-ptree parsed(const std::string& text) {
-  std::istringstream in(text);
-  ptree tree;
-  boost::property_tree::read_xml(in, tree);
-  return tree;
 }
 
 bool is_meta(std::string_view name) { return name.starts_with('<'); }  // attributes, comments
@@ -240,9 +233,9 @@ void check_sdf_links(const ptree& element, const std::string& path) {
 
 }  // namespace
 
-std::map<std::string, std::size_t> check_urdf_collisions(const std::string& text) {
+std::map<std::string, std::size_t> check_urdf_collisions(const ptree& tree) {
   std::map<std::string, std::size_t> counts;
-  const ptree tree = parsed(text), none;
+  const ptree none;
   for (const auto& [tag, link] : tree.get_child("robot", none)) {
     if (tag != "link") continue;
     const std::string name = link.get<std::string>("<xmlattr>.name", "");
@@ -259,8 +252,8 @@ std::map<std::string, std::size_t> check_urdf_collisions(const std::string& text
   return counts;
 }
 
-void check_sdf_collisions(const std::string& text, std::string_view newest_version) {
-  const ptree tree = parsed(text), none;
+void check_sdf_collisions(const ptree& tree, std::string_view newest_version) {
+  const ptree none;
   const ptree& sdf = tree.get_child("sdf", none);
   const std::string version = sdf.get<std::string>("<xmlattr>.version", "");
   const auto major_and_minor = [](std::string_view number) {
@@ -292,6 +285,18 @@ void check_utf8(const std::string& text, const std::filesystem::path& file) {
 }
 
 }  // namespace
+
+ptree parse_xml(const std::string& text, const std::filesystem::path& file) {
+  std::istringstream in(text);
+  ptree tree;
+  try {
+    boost::property_tree::read_xml(in, tree);
+  } catch (const boost::property_tree::xml_parser_error& e) {
+    throw InvalidInput("scene", '"' + file.string() + '"',
+                       fmt::format("must be XML: {} at line {}", e.message(), e.line()));
+  }
+  return tree;
+}
 
 std::string read_xml(const std::filesystem::path& file) {
   std::string text = read_file(file, "scene");

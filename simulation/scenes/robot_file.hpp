@@ -1,5 +1,6 @@
 #pragma once
 
+#include <boost/property_tree/ptree_fwd.hpp>
 #include <cstddef>
 #include <filesystem>
 #include <map>
@@ -100,10 +101,10 @@ RobotFile read_robot(const std::filesystem::path& file,
 
 /// How a robot or world is simulated.
 struct RobotMotion {
-  double duration = 2;                                ///< s
-  std::vector<std::pair<std::string, double>> rates;  ///< of driven joints, rad/s or m/s
-  std::vector<std::string> loose;                     ///< joints in which no motor holds
-  bool has_fixed_base = false;                        ///< the root link of the robot is held
+  double duration = 2;                                     ///< s
+  std::vector<std::pair<std::string, double>> rates = {};  ///< of driven joints, rad/s or m/s
+  std::vector<std::string> loose = {};                     ///< joints in which no motor holds
+  bool has_fixed_base = false;                             ///< the root link of the robot is held
 };
 
 /// Moderate rates that roll a robot's wheels the same way, at the same speed of their rims: of
@@ -159,10 +160,12 @@ std::string library_complaint();
 /// Text of an XML file. Throws InvalidInput if its elements are nested so deeply that a parser
 /// would overflow the stack.
 std::string read_xml(const std::filesystem::path& file);
+/// Throws InvalidInput, with the line, unless it is XML.
+boost::property_tree::ptree parse_xml(const std::string& text, const std::filesystem::path& file);
 /// Throws InvalidInput, with the collision and the field, unless each collision's shape is known
 /// and has the lengths it needs, and no others. Returns the number of collisions of each link.
-std::map<std::string, std::size_t> check_urdf_collisions(const std::string& text);
+std::map<std::string, std::size_t> check_urdf_collisions(const boost::property_tree::ptree& robot);
 /// Checks those of SDF, and that its version is not above that which its reader knows.
-void check_sdf_collisions(const std::string& text, std::string_view newest_version);
+void check_sdf_collisions(const boost::property_tree::ptree& sdf, std::string_view newest_version);
 
 }  // namespace touchstone

@@ -1,6 +1,6 @@
 // The only file that includes libsdformat's headers, which take seconds to compile.
 #include <algorithm>
-#include <boost/property_tree/xml_parser.hpp>
+#include <boost/property_tree/ptree.hpp>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -353,20 +353,14 @@ class IncludedFiles {
     }
     if (!done_.insert(here).second) return;
     open_.push_back(here);
-    const std::string text = read_xml(here);
     const bool is_first = open_.size() == 1;
+    const ptree tree = parse_xml(read_xml(here), here);
     try {
-      check_sdf_collisions(text, sdf::SDF::Version());
-    } catch (const boost::property_tree::xml_parser_error& e) {
-      throw InvalidInput("scene", '"' + here.string() + '"',
-                         fmt::format("must be XML: {} at line {}", e.message(), e.line()));
+      check_sdf_collisions(tree, sdf::SDF::Version());
     } catch (const InvalidInput& e) {
       if (is_first) throw;
       throw InvalidInput(here.string() + ": " + e.field(), e.value(), e.remedy());
     }
-    std::istringstream in(text);
-    ptree tree;
-    boost::property_tree::read_xml(in, tree);
     check_includes(tree);
     open_.pop_back();
   }

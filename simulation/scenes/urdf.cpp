@@ -1,6 +1,5 @@
-#include <boost/property_tree/xml_parser.hpp>
+#include <boost/property_tree/ptree.hpp>
 #include <fmt/format.h>
-#include <map>
 #include <optional>
 #include <set>
 #include <sstream>
@@ -173,11 +172,8 @@ bool read_friction(const boost::property_tree::ptree& gazebo, const std::string&
 }
 
 /// Reads friction, and adds what the parser silently passes over.
-void read_other_elements(const std::string& text, RobotFile& result) {
-  std::istringstream in(text);
-  boost::property_tree::ptree tree;
-  boost::property_tree::read_xml(in, tree);
-  for (const auto& [element, content] : tree.get_child("robot")) {
+void read_other_elements(const boost::property_tree::ptree& xml, RobotFile& result) {
+  for (const auto& [element, content] : xml.get_child("robot")) {
     if (element == "link" || element == "joint" || element == "material" || element[0] == '<') {
       continue;
     }
@@ -231,13 +227,8 @@ RobotFile read_urdf(const std::filesystem::path& file) {
     throw InvalidInput("scene", '"' + file.string() + '"',
                        "must not hold a percent sign, which its reader takes for a format");
   }
-  std::map<std::string, std::size_t> collision_counts;
-  try {
-    collision_counts = check_urdf_collisions(text);
-  } catch (const boost::property_tree::xml_parser_error& e) {
-    throw InvalidInput("scene", '"' + file.string() + '"',
-                       fmt::format("must be XML: {} at line {}", e.message(), e.line()));
-  }
+  const boost::property_tree::ptree xml = parse_xml(text, file);
+  const auto collision_counts = check_urdf_collisions(xml);
   const urdf::ModelInterfaceSharedPtr robot = urdf::parseURDF(text);
   if (!robot || !robot->getRoot()) {
     refuse("scene", '"' + file.string() + '"', "must be a URDF robot");
@@ -262,7 +253,7 @@ RobotFile read_urdf(const std::filesystem::path& file) {
   // A root named so is the world, which holds the robot, as Gazebo and MoveIt read it.
   Link& root = result.links.front();
   root.fixed = root.name == "world";
-  read_other_elements(text, result);
+  read_other_elements(xml, result);
   return result;
 }
 
