@@ -114,10 +114,11 @@ Body read_body(const json& value, const std::string& path,
   return body;
 }
 
-/// Calls read(element, "name[i]") for each element of the array.
+/// Calls read(element, "name[i]") for each element of the array, if the file has one.
 template <class Read>
 void each_of(const json& file, const char* name, Read read) {
-  const json& array = member(file, name, "");
+  if (!file.contains(name)) return;
+  const json& array = file[name];
   if (!array.is_array()) throw InvalidInput(name, shown(array), "must be an array");
   for (std::size_t i = 0; i < array.size(); ++i) read(array[i], fmt::format("{}[{}]", name, i));
 }
@@ -365,26 +366,21 @@ SceneFile scene_from_text(std::string_view text, const std::filesystem::path& pa
     scene.surface_layer = number(file["surface_layer"], "surface_layer");
   }
   const auto materials = read_materials(file);
+  member(file, "bodies", "");  // which must be there
   each_of(file, "bodies", [&](const json& value, const std::string& field) {
     scene.bodies.push_back(read_body(value, field, materials));
   });
-  if (file.contains("drops")) {
-    each_of(file, "drops", [&](const json& value, const std::string& field) {
-      require_object(value, field);
-      refuse_others(value, {"name", "shape", "material", "count", "seed", "lower", "upper"}, field);
-      add_drop(value, field, read_kind_of_body(value, field, materials), scene);
-    });
-  }
-  if (file.contains("joints")) {
-    each_of(file, "joints", [&](const json& value, const std::string& field) {
-      scene.joints.push_back(joint_from_json(value, field, scene));
-    });
-  }
-  if (file.contains("pushes")) {
-    each_of(file, "pushes", [&](const json& value, const std::string& field) {
-      scene.pushes.push_back(push_from_json(value, field, scene));
-    });
-  }
+  each_of(file, "drops", [&](const json& value, const std::string& field) {
+    require_object(value, field);
+    refuse_others(value, {"name", "shape", "material", "count", "seed", "lower", "upper"}, field);
+    add_drop(value, field, read_kind_of_body(value, field, materials), scene);
+  });
+  each_of(file, "joints", [&](const json& value, const std::string& field) {
+    scene.joints.push_back(joint_from_json(value, field, scene));
+  });
+  each_of(file, "pushes", [&](const json& value, const std::string& field) {
+    scene.pushes.push_back(push_from_json(value, field, scene));
+  });
   if (scene.bodies.size() > max_bodies) {
     throw InvalidInput("bodies", fmt::format("{} bodies", scene.bodies.size()),
                        fmt::format("must be at most {}", max_bodies));
@@ -401,11 +397,9 @@ SceneFile scene_from_text(std::string_view text, const std::filesystem::path& pa
                        "must be at most a million steps, and four million divided by the number of "
                        "bodies");
   }
-  if (file.contains("needs")) {
-    each_of(file, "needs", [&](const json& value, const std::string& field) {
-      result.needs.push_back(read_need(value, field, scene));
-    });
-  }
+  each_of(file, "needs", [&](const json& value, const std::string& field) {
+    result.needs.push_back(read_need(value, field, scene));
+  });
   result.camera = file.contains("camera") ? read_camera(file["camera"]) : camera_for(scene);
   return result;
 }
