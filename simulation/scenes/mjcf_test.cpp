@@ -12,13 +12,13 @@ using testing::Contains;
 using testing::HasSubstr;
 
 TEST(Mjcf, SaysWhatOfItsJointsItIgnores) {
-  const Written file("joint.xml", R"(<mujoco><worldbody><body>
+  const RobotFile robot = robot_of("joint.xml", R"(<mujoco><worldbody><body>
     <joint name="j" damping="1" frictionloss="2" armature="3" stiffness="4"/><geom size="0.1"/>
     <body pos="1 0 0"><joint name="plain"/><geom size="0.1"/></body></body></worldbody></mujoco>)");
-  EXPECT_THAT(read_robot(file.path).ignored,
-              testing::UnorderedElementsAre(
-                  "damping of joint j: not read", "friction of joint j: not read",
-                  "armature of joint j: not read", "the spring of joint j: not read"));
+  EXPECT_THAT(robot.ignored, testing::UnorderedElementsAre("damping of joint j: not read",
+                                                           "friction of joint j: not read",
+                                                           "armature of joint j: not read",
+                                                           "the spring of joint j: not read"));
 }
 
 TEST(Mjcf, GivesShapesJointsAndActuators) {
@@ -52,10 +52,9 @@ TEST(Mjcf, SaysWhatItIgnoresAndHowMuchThatIs) {
 }
 
 TEST(Mjcf, ABodyWithSeveralJointsGetsLinksInBetween) {
-  const Written file("two.xml", R"(<mujoco><worldbody><body name="b">
+  const RobotFile robot = robot_of("two.xml", R"(<mujoco><worldbody><body name="b">
     <joint name="x" type="slide" axis="1 0 0"/><joint name="turn" axis="0 0 1"/>
     <geom type="sphere" size="0.1"/></body></worldbody></mujoco>)");
-  const RobotFile robot = read_robot(file.path);
   const LinkJoint &x = by_name(robot.joints, "x"), &turn = by_name(robot.joints, "turn");
   EXPECT_EQ(x.parent, world_body);
   EXPECT_EQ(x.child, turn.parent);
@@ -65,8 +64,9 @@ TEST(Mjcf, ABodyWithSeveralJointsGetsLinksInBetween) {
 
 /// Which of the shapes of an MJCF world may touch, as "a b, a c": in the order of the file.
 std::string touching(const std::string& worldbody) {
-  const Written file("touch.xml", "<mujoco><worldbody>" + worldbody + "</worldbody></mujoco>");
-  const Scene scene = robot_scene(read_robot(file.path), {}).scene;
+  const RobotFile robot =
+      robot_of("touch.xml", "<mujoco><worldbody>" + worldbody + "</worldbody></mujoco>");
+  const Scene scene = robot_scene(robot, {}).scene;
   const Touching may(scene);
   std::string pairs;
   for (int a = 0; a < static_cast<int>(scene.bodies.size()); ++a) {
@@ -105,22 +105,20 @@ TEST(Mjcf, GeomsTouchByTheirOwnMasks) {
 }
 
 TEST(Mjcf, ARootWithAFreejointIsABaseThatCanBeHeld) {
-  const Written file("free.xml", R"(<mujoco><worldbody><geom type="plane" size="1 1 1"/>
+  const RobotFile robot =
+      robot_of("free.xml", R"(<mujoco><worldbody><geom type="plane" size="1 1 1"/>
     <body name="base" pos="0 0 1"><freejoint/><geom type="sphere" size="0.1"/>
       <body name="arm" pos="0 0 1"><joint axis="0 1 0"/><geom type="sphere" size="0.1"/></body>
     </body></worldbody></mujoco>)");
-  RobotMotion motion;
-  motion.has_fixed_base = true;
-  const Scene scene = robot_scene(read_robot(file.path), motion).scene;
+  const Scene scene = robot_scene(robot, {.has_fixed_base = true}).scene;
   EXPECT_TRUE(by_name(scene.bodies, "base").fixed);
   EXPECT_FALSE(by_name(scene.bodies, "arm").fixed);
 }
 
 TEST(Mjcf, ObeysFlagsOrSaysThatItDoesNot) {
   const auto read = [](const std::string& flag) {
-    const Written file("flag.xml", "<mujoco><option><flag " + flag + R"(/></option><worldbody><body>
+    return robot_of("flag.xml", "<mujoco><option><flag " + flag + R"(/></option><worldbody><body>
       <joint name="j" limited="true" range="-1 1"/><geom size="0.1"/></body></worldbody></mujoco>)");
-    return read_robot(file.path);
   };
   EXPECT_EQ(read("sensor='disable'").gravity.z(), -9.81);
   EXPECT_THAT(read("sensor='disable'").ignored, testing::IsEmpty());
@@ -133,10 +131,11 @@ TEST(Mjcf, ObeysFlagsOrSaysThatItDoesNot) {
 
 TEST(Mjcf, ActuatorsOfOneJointAddTheirStrengths) {
   const auto effort = [](const std::string& second) {
-    const Written file("two.xml", R"(<mujoco><worldbody><body><joint name="j"/><geom size="0.1"/>
+    return robot_of("two.xml", R"(<mujoco><worldbody><body><joint name="j"/><geom size="0.1"/>
       </body></worldbody><actuator><motor joint="j" ctrllimited="true" ctrlrange="-1 1" gear="2"/>)" +
-                                      second + "</actuator></mujoco>");
-    return read_robot(file.path).joints.at(0).effort;
+                                   second + "</actuator></mujoco>")
+        .joints.at(0)
+        .effort;
   };
   EXPECT_EQ(effort(""), 2);
   EXPECT_EQ(effort("<motor joint='j' ctrllimited='true' ctrlrange='-3 3'/>"), 5);
@@ -144,9 +143,10 @@ TEST(Mjcf, ActuatorsOfOneJointAddTheirStrengths) {
 }
 
 TEST(Mjcf, SaysThatGeomsWithoutFrictionHaveIt) {
-  const Written file("ice.xml", R"(<mujoco><worldbody><geom type="plane" size="1 1 1" condim="1"/>
+  const RobotFile robot =
+      robot_of("ice.xml", R"(<mujoco><worldbody><geom type="plane" size="1 1 1" condim="1"/>
     <body><freejoint/><geom size="0.1" condim="1"/></body></worldbody></mujoco>)");
-  EXPECT_THAT(read_robot(file.path).ignored,
+  EXPECT_THAT(robot.ignored,
               testing::ElementsAre("condim 1 of 2 geoms: not read; contacts have friction here"));
 }
 
@@ -155,7 +155,7 @@ TEST(Mjcf, IsToldByItsRootElement) {
       "<robot name='r'><mujoco><compiler/></mujoco><link name='l'><collision>"
       "<geometry><sphere radius='1'/></geometry></collision></link></robot>";
   const auto links = [](const std::string& text) {
-    return read_robot(Written("root.xml", text).path).links.size();
+    return robot_of("root.xml", text).links.size();
   };
   EXPECT_EQ(links("<?xml version='1.0'?>\n<!-- <mujoco> -->\n" + robot), 1U) << "a URDF";
   EXPECT_EQ(links("<mujoco model='of a <robot'><worldbody/></mujoco>"), 1U) << "the world";

@@ -48,6 +48,10 @@ struct Written {
   std::filesystem::path path;
 };
 
+inline RobotFile robot_of(const std::string& name, const std::string& text) {
+  return read_robot(Written(name, text).path);
+}
+
 /// Why a file of this content is refused, or that it is accepted.
 inline std::string refusal_of(const std::string& name, const std::string& text) {
   const Written file(name, text);

@@ -1,17 +1,12 @@
 // The inertia of links: what is read of it from URDF, SDF and MJCF, and what a scene makes of it.
 #include <cmath>
-#include <filesystem>
 #include <fmt/format.h>
-#include <fstream>
 #include <gmock/gmock.h>
-#include <stdexcept>
-#include <unistd.h>
 
 #include "candidates/candidates.hpp"
-#include "reference/invalid_input.hpp"
 #include "simulation/assembly.hpp"
 #include "simulation/scenes/disturbed_scene.hpp"
-#include "simulation/scenes/robot_file.hpp"
+#include "simulation/scenes/robot_files_fixture.hpp"
 #include "simulation/scenes/trajectory.hpp"
 
 namespace touchstone {
@@ -20,39 +15,6 @@ namespace {
 using testing::Contains;
 using testing::HasSubstr;
 using testing::Not;
-
-const std::filesystem::path inertia_scenes = TOUCHSTONE_SCENES;
-
-/// What a file of this text is read as.
-RobotFile read(const std::string& name, const std::string& text) {
-  const std::filesystem::path path =
-      std::filesystem::temp_directory_path() / (std::to_string(getpid()) + '-' + name);
-  std::ofstream(path) << text;
-  try {
-    RobotFile robot = read_robot(path);
-    std::filesystem::remove(path);
-    return robot;
-  } catch (...) {
-    std::filesystem::remove(path);
-    throw;
-  }
-}
-template <class Read>
-std::string refusal(Read read) {
-  try {
-    read();
-  } catch (const InvalidInput& e) {
-    return e.what();
-  }
-  return "accepted";
-}
-
-const Link& link(const RobotFile& robot, const std::string& name) {
-  for (const Link& l : robot.links) {
-    if (l.name == name) return l;
-  }
-  throw std::runtime_error("no link " + name);
-}
 
 Eigen::Quaterniond about(const Vec3& axis, double angle) {
   return Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis));
@@ -79,28 +41,60 @@ void expect_turned(const Eigen::Matrix3d& given, const LinkInertia& i) {
   EXPECT_LT((moments(i) - r * given * r.transpose()).norm(), near);
 }
 
-/// A robot whose link "part", below a root, has this inertial.
-RobotFile urdf(const std::string& inertial) {
-  return read("inertia.urdf",
-              "<robot name='r'><link name='base'/><joint name='j' type='fixed'><parent "
-              "link='base'/><child link='part'/><origin xyz='1 2 3' rpy='0 0 0.5'/></joint>"
-              "<link name='part'>" +
-                  inertial + R"(<collision><geometry><box size='1 1 1'/></geometry></collision>
-    </link></robot>)");
+/// A file whose link "part" is there and has a box and this inertial.
+std::string urdf_text(const std::string& inertial) {
+  return "<robot name='r'><link name='base'/><joint name='j' type='fixed'><parent link='base'/>"
+         "<child link='part'/><origin xyz='1 2 3' rpy='0 0 0.5'/></joint><link name='part'>" +
+         inertial +
+         "<collision><geometry><box size='1 1 1'/></geometry></collision></link></robot>";
 }
-std::string urdf_inertial(double mass, const Eigen::Matrix3d& m) {
-  return fmt::format(
-      "<inertial><origin xyz='0.1 0 -0.2' rpy='0.3 0 0.4'/><mass value='{}'/><inertia ixx='{}' "
-      "ixy='{}' ixz='{}' iyy='{}' iyz='{}' izz='{}'/></inertial>",
-      mass, m(0, 0), m(0, 1), m(0, 2), m(1, 1), m(1, 2), m(2, 2));
+std::string sdf_model(const std::string& inertial) {
+  return "<model name='m'><pose>1 2 3 0 0 0.5</pose><link name='part'>" + inertial +
+         "<collision name='c'><geometry><box><size>1 1 1</size></box></geometry></collision></link>"
+         "</model>";
+}
+std::string sdf_text(const std::string& inertial) {
+  return "<sdf version='1.7'>" + sdf_model(inertial) + "</sdf>";
+}
+std::string sdf_world_text(const std::string& inertial) {
+  return "<sdf version='1.7'><world name='w'>" + sdf_model(inertial) + "</world></sdf>";
 }
 
-TEST(UrdfInertia, IsTurnedByItsOriginAndItsLink) {
-  const RobotFile robot = urdf(urdf_inertial(7, tensor));
-  EXPECT_EQ(link(robot, "part").mass, 7);
-  expect_turned(tensor, link(robot, "part").inertia.value());
-  EXPECT_FALSE(link(robot, "base").inertia);
-  EXPECT_TRUE(robot.ignored.empty());
+/// What the file says of a mass and of moments {xx}, {xy}, ….
+constexpr const char* urdf_inertial =
+    "<inertial><origin xyz='0.1 0 -0.2' rpy='0.3 0 0.4'/><mass value='{}'/><inertia ixx='{}' "
+    "ixy='{}' ixz='{}' iyy='{}' iyz='{}' izz='{}'/></inertial>";
+constexpr const char* sdf_inertial =
+    "<inertial><pose>0.1 0 -0.2 0.3 0 0.4</pose><mass>{}</mass><inertia><ixx>{}</ixx><ixy>{}</ixy>"
+    "<ixz>{}</ixz><iyy>{}</iyy><iyz>{}</iyz><izz>{}</izz></inertia></inertial>";
+
+/// A format in which a file may have any moments; MuJoCo checks those of MJCF itself.
+struct InertiaFormat {
+  const char* file;
+  const char* link;  ///< the name that "part" is read by
+  std::string (*text)(const std::string& inertial);
+  const char* inertial;
+
+  RobotFile read(const std::string& given) const { return robot_of(file, text(given)); }
+  RobotFile read(double mass, const Eigen::Matrix3d& m) const {
+    return read(fmt::format(fmt::runtime(inertial), mass, m(0, 0), m(0, 1), m(0, 2), m(1, 1),
+                            m(1, 2), m(2, 2)));
+  }
+  /// The link "part" of a file.
+  const Link& part(const RobotFile& robot) const { return by_name(robot.links, link); }
+};
+const InertiaFormat urdf = {"inertia.urdf", "part", urdf_text, urdf_inertial},
+                    sdf = {"inertia.sdf", "m::part", sdf_text, sdf_inertial},
+                    sdf_world = {"inertia.sdf", "m::part", sdf_world_text, sdf_inertial};
+
+TEST(RobotInertia, IsTurnedByItsFrameAndItsLink) {
+  for (const InertiaFormat& format : {urdf, sdf, sdf_world}) {
+    SCOPED_TRACE(format.file);
+    const RobotFile robot = format.read(7, tensor);
+    EXPECT_EQ(format.part(robot).mass, 7);
+    expect_turned(tensor, format.part(robot).inertia.value());
+    EXPECT_TRUE(robot.ignored.empty());
+  }
 }
 
 /// Moments that no body can have, and what is said of them.
@@ -112,90 +106,56 @@ const std::vector<std::pair<Eigen::Matrix3d, std::string>> bad_moments = {
     {symmetric(1, 0, 0, 1, 0, 1e-14), "next to nothing beside another"},
     {symmetric(1e-4, 0, 0, 1e-4, 0, 1e-4), "next to nothing beside its shapes'"}};
 
-TEST(UrdfInertia, ThatNoBodyCanHaveIsNamedAndLeavesMassAndCentre) {
-  for (const auto& [m, fault] : bad_moments) {
-    const RobotFile robot = urdf(urdf_inertial(7, m));
-    EXPECT_THAT(
-        robot.ignored,
-        testing::ElementsAre("link part: its inertia, of which one principal moment is " + fault +
-                             "; that of its shapes is taken, with its mass and centre of "
-                             "mass"));
-    EXPECT_EQ(link(robot, "part").mass, 7);
-    const LinkInertia& i = link(robot, "part").inertia.value();
-    EXPECT_FALSE(i.moments);
-    EXPECT_LT(
-        (i.pose.position() - Vec3(1, 2, 3) - about(Vec3::UnitZ(), 0.5) * Vec3(0.1, 0, -0.2)).norm(),
-        1e-12);
-  }
-}
-
-TEST(UrdfInertia, OfAFlatPlateInTwoDigitsIsTaken) {
-  const RobotFile robot = urdf(urdf_inertial(1, symmetric(0.33, 0, 0, 0.084, 0, 0.415)));
-  EXPECT_TRUE(link(robot, "part").inertia.value().moments);
-}
-
-TEST(UrdfInertia, WithoutAMassIsNamed) {
-  const RobotFile robot = urdf(urdf_inertial(0, tensor));
-  EXPECT_THAT(robot.ignored, Contains("link part: an inertia without a mass"));
-  EXPECT_FALSE(link(robot, "part").inertia);
-  EXPECT_TRUE(urdf(urdf_inertial(0, Eigen::Matrix3d::Zero())).ignored.empty());
-  EXPECT_THAT(refusal([] { urdf(urdf_inertial(-1, tensor)); }), HasSubstr("link part.mass is -1"));
-}
-
-TEST(UrdfInertia, ThatIsNotThereLeavesAllToTheShapes) {
-  EXPECT_FALSE(link(urdf(""), "part").inertia);
-  EXPECT_FALSE(link(urdf(""), "part").mass);
-}
-
-/// A world, or a model of its own, whose link "part" has this inertial.
-RobotFile sdf(const std::string& inertial, bool is_world = true) {
-  const std::string model =
-      "<model name='m'><pose>1 2 3 0 0 0.5</pose><link name='part'>" + inertial +
-      R"(<collision name='c'><geometry><box><size>1 1 1</size></box></geometry></collision></link>
-      </model>)";
-  return read("inertia.sdf", "<sdf version='1.7'>" +
-                                 (is_world ? "<world name='w'>" + model + "</world>" : model) +
-                                 "</sdf>");
-}
-std::string sdf_inertial(double mass, const Eigen::Matrix3d& m) {
-  return fmt::format(
-      "<inertial><pose>0.1 0 -0.2 0.3 0 "
-      "0.4</pose><mass>{}</mass><inertia><ixx>{}</ixx><ixy>{}</ixy>"
-      "<ixz>{}</ixz><iyy>{}</iyy><iyz>{}</iyz><izz>{}</izz></inertia></inertial>",
-      mass, m(0, 0), m(0, 1), m(0, 2), m(1, 1), m(1, 2), m(2, 2));
-}
-
-TEST(SdfInertia, IsTurnedByItsPoseAndItsLink) {
-  const RobotFile world = sdf(sdf_inertial(7, tensor));
-  EXPECT_EQ(link(world, "m::part").mass, 7);
-  expect_turned(tensor, link(world, "m::part").inertia.value());
-}
-
-TEST(SdfInertia, ThatIsNotThereLeavesMomentsToTheShapes) {
-  EXPECT_FALSE(link(sdf(""), "m::part").inertia);
-  EXPECT_FALSE(link(sdf("<inertial><mass>3</mass></inertial>"), "m::part").inertia);
-  const RobotFile low = sdf("<inertial><pose>0 0 -0.4 0 0 0</pose><mass>3</mass></inertial>");
-  const LinkInertia& i = link(low, "m::part").inertia.value();
-  EXPECT_FALSE(i.moments);
-  EXPECT_LT((i.pose.position() - Vec3(1, 2, 2.6)).norm(), 1e-12);
-}
-
-TEST(SdfInertia, ThatNoBodyCanHaveIsNamedAndLeavesMassAndCentre) {
-  for (const bool is_world : {true, false}) {
+TEST(RobotInertia, ThatNoBodyCanHaveIsNamedAndLeavesMassAndCentre) {
+  for (const InertiaFormat& format : {urdf, sdf, sdf_world}) {
     for (const auto& [m, fault] : bad_moments) {
-      const RobotFile world = sdf(sdf_inertial(7, m), is_world);
-      EXPECT_THAT(world.ignored, testing::ElementsAre(HasSubstr("link m::part: its inertia")));
-      EXPECT_THAT(world.ignored, Contains(HasSubstr(fault)));
-      EXPECT_EQ(link(world, "m::part").mass, 7);
-      EXPECT_FALSE(link(world, "m::part").inertia.value().moments);
-      EXPECT_EQ(link(world, "m::part").shapes.size(), 1U);
+      SCOPED_TRACE(format.file + (": " + fault));
+      const RobotFile robot = format.read(7, m);
+      EXPECT_THAT(robot.ignored,
+                  testing::ElementsAre(fmt::format(
+                      "link {}: its inertia, of which one principal moment is {}; that of its "
+                      "shapes is taken, with its mass and centre of mass",
+                      format.link, fault)));
+      const Link& part = format.part(robot);
+      EXPECT_EQ(part.mass, 7);
+      EXPECT_EQ(part.shapes.size(), 1U);
+      EXPECT_FALSE(part.inertia.value().moments);
+      const Vec3 centre = Vec3(1, 2, 3) + about(Vec3::UnitZ(), 0.5) * Vec3(0.1, 0, -0.2);
+      EXPECT_LT((part.inertia->pose.position() - centre).norm(), 1e-12);
     }
   }
 }
 
+TEST(RobotInertia, OfAFlatPlateInTwoDigitsIsTaken) {
+  const RobotFile robot = urdf.read(1, symmetric(0.33, 0, 0, 0.084, 0, 0.415));
+  EXPECT_TRUE(urdf.part(robot).inertia.value().moments);
+}
+
+TEST(RobotInertia, WithoutAMassIsNamed) {
+  const RobotFile robot = urdf.read(0, tensor);
+  EXPECT_THAT(robot.ignored, Contains("link part: an inertia without a mass"));
+  EXPECT_FALSE(urdf.part(robot).inertia);
+  EXPECT_TRUE(urdf.read(0, Eigen::Matrix3d::Zero()).ignored.empty());
+  const std::string negative = fmt::format(fmt::runtime(urdf_inertial), -1, 1, 0, 0, 1, 0, 1);
+  EXPECT_THAT(refusal_of(urdf.file, urdf_text(negative)), HasSubstr("link part.mass is -1"));
+}
+
+TEST(RobotInertia, ThatIsNotThereIsThatOfTheShapes) {
+  for (const InertiaFormat& format : {urdf, sdf, sdf_world}) {
+    EXPECT_FALSE(format.part(format.read("")).inertia) << format.file;
+  }
+  EXPECT_FALSE(urdf.part(urdf.read("")).mass);
+  EXPECT_FALSE(by_name(urdf.read(7, tensor).links, "base").inertia);
+  EXPECT_FALSE(sdf.part(sdf.read("<inertial><mass>3</mass></inertial>")).inertia);
+  const RobotFile low = sdf.read("<inertial><pose>0 0 -0.4 0 0 0</pose><mass>3</mass></inertial>");
+  const LinkInertia& i = sdf.part(low).inertia.value();
+  EXPECT_FALSE(i.moments);
+  EXPECT_LT((i.pose.position() - Vec3(1, 2, 2.6)).norm(), 1e-12);
+}
+
 TEST(SdfInertia, WithAUnitOrANegativeMassIsRefused) {
   const auto of = [](const std::string& inertial) {
-    return refusal([&] { sdf("<inertial>" + inertial + "</inertial>"); });
+    return refusal_of("inertia.sdf", sdf_world_text("<inertial>" + inertial + "</inertial>"));
   };
   EXPECT_THAT(of("<mass>3kg</mass>"),
               HasSubstr("link m::part.inertial.mass is \"3kg\": must be a number"));
@@ -207,10 +167,10 @@ TEST(SdfInertia, WithAUnitOrANegativeMassIsRefused) {
 }
 
 RobotFile mjcf(const std::string& body) {
-  return read("inertia.xml",
-              "<mujoco><compiler angle='radian' eulerseq='XYZ'/><worldbody>"
-              "<body name='part' pos='1 2 3' euler='0 0 0.5'><freejoint/>" +
-                  body + "</body></worldbody></mujoco>");
+  return robot_of("inertia.xml",
+                  "<mujoco><compiler angle='radian' eulerseq='XYZ'/><worldbody>"
+                  "<body name='part' pos='1 2 3' euler='0 0 0.5'><freejoint/>" +
+                      body + "</body></worldbody></mujoco>");
 }
 
 TEST(MjcfInertia, IsTurnedByItsFrameAndItsBody) {
@@ -219,8 +179,8 @@ TEST(MjcfInertia, IsTurnedByItsFrameAndItsBody) {
       "<inertial pos='0.1 0 -0.2' quat='{} {} {} {}' mass='7' diaginertia='0.3 0.4 0.5'/>"
       "<geom type='box' size='1 1 1'/>",
       q.w(), q.x(), q.y(), q.z()));
-  EXPECT_EQ(link(world, "part").mass, 7);
-  expect_turned(symmetric(0.3, 0, 0, 0.4, 0, 0.5), link(world, "part").inertia.value());
+  EXPECT_EQ(by_name(world.links, "part").mass, 7);
+  expect_turned(symmetric(0.3, 0, 0, 0.4, 0, 0.5), by_name(world.links, "part").inertia.value());
 }
 
 TEST(MjcfInertia, IsThatOfAllGeomsWhereTheFileHasNone) {
@@ -228,7 +188,7 @@ TEST(MjcfInertia, IsThatOfAllGeomsWhereTheFileHasNone) {
   const RobotFile world = mjcf(
       "<geom type='sphere' size='0.1' mass='1'/>"
       "<geom type='sphere' size='0.1' mass='3' pos='0 0 -0.4' contype='0' conaffinity='0'/>");
-  const Link& part = link(world, "part");
+  const Link& part = by_name(world.links, "part");
   EXPECT_EQ(part.shapes.size(), 1U);
   EXPECT_NEAR(*part.mass, 4, 1e-12);
   EXPECT_LT((part.inertia->pose.position() - Vec3(1, 2, 3 - 0.3)).norm(), 1e-12);

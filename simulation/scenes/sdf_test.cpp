@@ -15,6 +15,26 @@ namespace {
 using testing::Contains;
 using testing::HasSubstr;
 
+const std::string ball_geometry = "<geometry><sphere><radius>1</radius></sphere></geometry>";
+std::string ball_link(const std::string& name, const std::string& surface = "") {
+  return "<link name='" + name + "'><collision name='c'>" + ball_geometry + surface +
+         "</collision></link>";
+}
+/// A world of this, or a model.
+std::string world_of(const std::string& content) {
+  return "<sdf version='1.9'><world name='w'>" + content + "</world></sdf>";
+}
+std::string model_of(const std::string& content) {
+  return "<model name='m'>" + content + "</model>";
+}
+std::string joint_of_balls(const std::string& type, const std::string& content) {
+  return ball_link("a") + ball_link("b") + "<joint name='j' type='" + type +
+         "'><parent>a</parent><child>b</child>" + content + "</joint>";
+}
+RobotFile sdf_of(const std::string& content) {
+  return robot_of("part.sdf", "<sdf version='1.9'>" + content + "</sdf>");
+}
+
 TEST(Sdf, GivesShapesWhereTheyAreInTheWorld) {
   const RobotFile file = read_robot(scenes / "warehouse.sdf");
   EXPECT_EQ(file.name, "warehouse");
@@ -68,45 +88,20 @@ TEST(Sdf, RefusesAShapeThatItsReaderWouldReplaceByADefault) {
   EXPECT_THAT(of(""), HasSubstr("m::mid/broken.geometry is empty"));
 }
 
-TEST(Sdf, ChecksTheModelsThatItIncludes) {
-  const auto folder = std::filesystem::temp_directory_path() / (std::to_string(getpid()) + "-can");
-  std::filesystem::create_directory(folder);
-  std::ofstream(folder / "model.config")
-      << "<model><name>can</name><sdf version='1.7'>model.sdf</sdf></model>";
-  const Written world("world.sdf", "<sdf version='1.7'><world name='w'><include><uri>" +
-                                       folder.string() + "</uri></include></world></sdf>");
-  const auto read_with = [&](const std::string& radius) -> std::string {
-    std::ofstream(folder / "model.sdf")
-        << "<sdf version='1.7'><model name='can'><link name='l'><collision name='c'><geometry>"
-           "<sphere>" +
-               radius + "</sphere></geometry></collision></link></model></sdf>";
-    try {
-      return fmt::format("{} shapes", shape_count(read_robot(world.path)));
-    } catch (const InvalidInput& e) {
-      return e.what();
-    }
-  };
-  EXPECT_EQ(read_with("<radius>0.2</radius>"), "1 shapes");
-  EXPECT_THAT(read_with("<radiu>0.2</radiu>"),
-              HasSubstr((folder / "model.sdf").string() +
-                        ": collision can::l/c.sphere.radiu is unknown: must be one of radius"));
-  std::filesystem::remove_all(folder);
-}
-
 TEST(Sdf, RefusesAPoseOfWhichItsReaderWouldIgnoreAUnit) {
-  const std::string ball = "<geometry><sphere><radius>1</radius></sphere></geometry>";
-  EXPECT_EQ(sdf_refusal("<pose>0 0 1 0 0 0</pose>" + ball), "accepted with 1 shapes");
-  EXPECT_THAT(sdf_refusal("<pose>0 0 1m 0 0 0</pose>" + ball),
+  EXPECT_EQ(sdf_refusal("<pose>0 0 1 0 0 0</pose>" + ball_geometry), "accepted with 1 shapes");
+  EXPECT_THAT(sdf_refusal("<pose>0 0 1m 0 0 0</pose>" + ball_geometry),
               HasSubstr("collision m::mid/broken.pose is \"0 0 1m 0 0 0\": must be numbers"));
 }
 
 TEST(Sdf, RefusesAVersionThatItsReaderDoesNotKnow) {
-  const std::string ball = "<geometry><sphere><radius>1</radius></sphere></geometry>";
-  EXPECT_EQ(sdf_refusal(ball, "1.6"), "accepted with 1 shapes");
+  EXPECT_EQ(sdf_refusal(ball_geometry, "1.6"), "accepted with 1 shapes");
   for (const char* version : {"9.9", "1.99", "1.x", "1", ""}) {
-    EXPECT_THAT(sdf_refusal(ball, version), testing::Not(HasSubstr("accepted"))) << version;
+    EXPECT_THAT(sdf_refusal(ball_geometry, version), testing::Not(HasSubstr("accepted")))
+        << version;
   }
-  EXPECT_THAT(sdf_refusal(ball, "9.9"), HasSubstr("sdf.version is \"9.9\": must be 1.0 to 1."));
+  EXPECT_THAT(sdf_refusal(ball_geometry, "9.9"),
+              HasSubstr("sdf.version is \"9.9\": must be 1.0 to 1."));
 }
 
 /// A folder of this test's own.
@@ -128,16 +123,13 @@ struct Folder {
 };
 
 struct IncludedModels : testing::Test {
-  const std::string ball =
-      "<link name='l'><collision name='c'><geometry><sphere><radius>0.2</radius></sphere>"
-      "</geometry></collision></link>";
+  const std::string ball = ball_link("l");
   Folder models{"models"};
 
   /// What becomes of a world that includes this URI.
   static std::string with(const std::string& uri,
                           const std::vector<std::filesystem::path>& folders = {}) {
-    const Written world("world.sdf", "<sdf version='1.7'><world name='w'><include><uri>" + uri +
-                                         "</uri></include></world></sdf>");
+    const Written world("world.sdf", world_of("<include><uri>" + uri + "</uri></include>"));
     try {
       return fmt::format("{} shapes", shape_count(read_robot(world.path, folders)));
     } catch (const InvalidInput& e) {
@@ -145,6 +137,15 @@ struct IncludedModels : testing::Test {
     }
   }
 };
+
+TEST_F(IncludedModels, AreCheckedToo) {
+  models.model("can",
+               "<link name='l'><collision name='c'><geometry><sphere><radiu>0.2</radiu>"
+               "</sphere></geometry></collision></link>");
+  EXPECT_THAT(with((models.path / "can").string()),
+              HasSubstr((models.path / "can" / "model.sdf").string() +
+                        ": collision can::l/c.sphere.radiu is unknown: must be one of radius"));
+}
 
 TEST_F(IncludedModels, AreFoundByOptionAndByTheEnvironment) {
   models.model("ball", ball);
@@ -181,19 +182,15 @@ TEST_F(IncludedModels, AreThoseThatWereCheckedWhateverIsInTheWorkingFolder) {
 }
 
 TEST(Sdf, RefusesUnitsWhereItsReaderWouldPassOverThem) {
-  const std::string link =
-      "<collision name='c'><geometry><sphere><radius>1</radius></sphere></geometry><surface>"
-      "<friction><ode><mu>MU</mu></ode></friction></surface></collision></link>";
-  const auto refusal = [&](const std::string& place, const std::string& value) {
-    std::string text =
-        "<sdf version='1.9'><world name='w'><gravity>0 0 GRAVITY</gravity>"
-        "<model name='m'><frame name='f'><pose>0 0 FRAME 0 0 0</pose></frame>"
-        "<link name='a'>" +
-        link + "<link name='b'>" + link +
-        "<joint name='j' type='prismatic'><pose>0 JOINT 0 0 0 0</pose>"
-        "<parent>a</parent><child>b</child><axis><xyz>0 0 1</xyz><limit>"
-        "<lower>LOWER</lower><upper>UPPER</upper><effort>EFFORT</effort></limit>"
-        "</axis></joint></model></world></sdf>";
+  const auto refusal = [](const std::string& place, const std::string& value) {
+    std::string text = world_of(
+        "<gravity>0 0 GRAVITY</gravity>" +
+        model_of("<frame name='f'><pose>0 0 FRAME 0 0 0</pose></frame>" +
+                 ball_link("c", "<surface><friction><ode><mu>MU</mu></ode></friction></surface>") +
+                 joint_of_balls("prismatic",
+                                "<pose>0 JOINT 0 0 0 0</pose><axis><xyz>0 0 1</xyz><limit>"
+                                "<lower>LOWER</lower><upper>UPPER</upper><effort>EFFORT</effort>"
+                                "</limit></axis>")));
     for (const auto& [name, usual] : {std::pair{"GRAVITY", "-9.8"},
                                       {"MU", "0.5"},
                                       {"FRAME", "0"},
@@ -207,9 +204,9 @@ TEST(Sdf, RefusesUnitsWhereItsReaderWouldPassOverThem) {
     }
     return refusal_of("units.sdf", text);
   };
-  EXPECT_EQ(refusal("NONE", ""), "accepted with 2 shapes");
+  EXPECT_EQ(refusal("NONE", ""), "accepted with 3 shapes");
   EXPECT_THAT(refusal("GRAVITY", "-9.8m/s2"), HasSubstr("world w.gravity is \"0 0 -9.8m/s2\""));
-  EXPECT_THAT(refusal("MU", "50%"), HasSubstr("collision m::a/c.surface.friction.ode.mu is"));
+  EXPECT_THAT(refusal("MU", "50%"), HasSubstr("collision m::c/c.surface.friction.ode.mu is"));
   EXPECT_THAT(refusal("FRAME", "2m"), HasSubstr("frame m::f.pose is"));
   EXPECT_THAT(refusal("JOINT", "0,5"), HasSubstr("joint m::j.pose is"));
   EXPECT_THAT(refusal("LOWER", "-100mm"), HasSubstr("joint m::j.axis.limit.lower is \"-100mm\""));
@@ -218,47 +215,32 @@ TEST(Sdf, RefusesUnitsWhereItsReaderWouldPassOverThem) {
 }
 
 TEST(Sdf, AContinuousJointHasNoLimits) {
-  const std::string link =
-      "<collision name='c'><geometry><sphere><radius>1</radius></sphere></geometry></collision>"
-      "</link>";
-  const Written file(
-      "turns.sdf", "<sdf version='1.9'><model name='m'><link name='a'>" + link + "<link name='b'>" +
-                       link +
-                       "<joint name='j' type='continuous'><parent>a</parent><child>b</child>"
-                       "<axis><xyz>0 0 1</xyz><limit><lower>-0.1</lower><upper>0.1</upper>"
-                       "</limit></axis></joint></model></sdf>");
-  const LinkJoint joint = by_name(read_robot(file.path).joints, "m::j");
+  const std::string limited =
+      "<axis><xyz>0 0 1</xyz><limit><lower>-0.1</lower><upper>0.1</upper></limit></axis>";
+  const RobotFile robot = sdf_of(model_of(joint_of_balls("continuous", limited)));
+  const LinkJoint& joint = by_name(robot.joints, "m::j");
   EXPECT_TRUE(std::isinf(joint.lower));
   EXPECT_TRUE(std::isinf(joint.upper));
 }
 
 TEST(Sdf, ReadsTheFirstOfSeveralWorlds) {
   const auto world = [](const std::string& name) {
-    return "<world name='" + name + "'><model name='of_" + name +
-           "'><link name='l'><collision name='c'><geometry><sphere><radius>1</radius></sphere>"
-           "</geometry></collision></link></model></world>";
+    return "<world name='" + name + "'>" + model_of(ball_link("l")) + "</world>";
   };
-  const Written file("two.sdf", "<sdf version='1.9'>" + world("earth") + world("moon") + "</sdf>");
-  const RobotFile robot = read_robot(file.path);
+  const RobotFile robot = sdf_of(world("earth") + world("moon"));
   EXPECT_EQ(robot.name, "earth");
   EXPECT_EQ(shape_count(robot), 1U);
   EXPECT_THAT(robot.ignored, testing::ElementsAre("world moon: not read, only the first is"));
 }
 
 TEST(Sdf, ShapesTouchByTheirBitmasks) {
-  const auto model = [](const std::string& name, const std::string& bits) {
-    return "<model name='" + name +
-           "'><link name='l'><collision name='c'><geometry><sphere><radius>1</radius></sphere>"
-           "</geometry>" +
-           (bits.empty() ? bits
-                         : "<surface><contact><collide_bitmask>" + bits +
-                               "</collide_bitmask></contact></surface>") +
-           "</collision></link></model>";
+  const auto link = [](const std::string& name, const std::string& bits) {
+    return ball_link(name, "<surface><contact><collide_bitmask>" + bits +
+                               "</collide_bitmask></contact></surface>");
   };
-  const Written file("bits.sdf", "<sdf version='1.9'><world name='w'>" + model("low", "0x01") +
-                                     model("high", "2") + model("any", "") + "</world></sdf>");
-  const RobotFile robot = read_robot(file.path);
-  const auto mask = [&](const std::string& name) { return named(robot, name + "::l/c").mask; };
+  const RobotFile robot =
+      sdf_of(model_of(link("low", "0x01") + link("high", "2") + ball_link("any")));
+  const auto mask = [&](const std::string& name) { return named(robot, "m::" + name + "/c").mask; };
   EXPECT_FALSE(mask("low").touches(mask("high")));
   EXPECT_TRUE(mask("low").touches(mask("any")));
   EXPECT_TRUE(mask("any").touches(mask("high")));
@@ -267,12 +249,9 @@ TEST(Sdf, ShapesTouchByTheirBitmasks) {
 TEST(Sdf, SaysWhatOfLinksAndSurfacesItIgnores) {
   const auto ignored = [](const std::string& model, const std::string& link,
                           const std::string& surface) {
-    const Written file("link.sdf",
-                       "<sdf version='1.9'><model name='m'>" + model + "<link name='l'>" + link +
-                           "<collision name='c'><geometry><sphere><radius>1</radius></sphere>"
-                           "</geometry><surface>" +
-                           surface + "</surface></collision></link></model></sdf>");
-    return read_robot(file.path).ignored;
+    return sdf_of(model_of(model + "<link name='l'>" + link + "<collision name='c'>" +
+                           ball_geometry + "<surface>" + surface + "</surface></collision></link>"))
+        .ignored;
   };
   EXPECT_THAT(ignored("<self_collide>false</self_collide>",
                       "<gravity>false</gravity><kinematic>true</kinematic>",
@@ -304,30 +283,16 @@ TEST(Sdf, GivesMassFrictionAndGravity) {
 }
 
 TEST(Sdf, SaysWhatItDoesInsteadOfOtherJoints) {
-  const std::string link =
-      "<collision name='c'><geometry><sphere><radius>1</radius></sphere>"
-      "</geometry></collision></link>";
-  const Written file("ball.sdf", "<sdf version='1.7'><model name='m'><link name='a'>" + link +
-                                     "<link name='b'>" + link +
-                                     "<joint name='j' type='ball'><parent>a</parent>"
-                                     "<child>b</child></joint></model></sdf>");
-  const RobotFile robot = read_robot(file.path);
+  const RobotFile robot = sdf_of(model_of(joint_of_balls("ball", "")));
   EXPECT_THAT(robot.ignored, Contains("joint m::j: ball; taken as fixed"));
   EXPECT_EQ(by_name(robot.joints, "m::j").kind, JointKind::fixed);
 }
 
 TEST(Sdf, SaysWhatOfAWorldAndItsJointsItIgnores) {
-  const std::string link =
-      "<collision name='c'><geometry><sphere><radius>1</radius></sphere>"
-      "</geometry></collision></link>";
-  const auto ignored = [&](const std::string& of_world, const std::string& of_axis) {
-    const Written file("axis.sdf",
-                       "<sdf version='1.7'><world name='w'>" + of_world +
-                           "<model name='m'><link name='a'>" + link + "<link name='b'>" + link +
-                           "<joint name='j' type='revolute'><parent>a</parent><child>b</child>"
-                           "<axis><xyz>0 0 1</xyz>" +
-                           of_axis + "</axis></joint></model></world></sdf>");
-    return read_robot(file.path).ignored;
+  const auto ignored = [](const std::string& of_world, const std::string& of_axis) {
+    const std::string axis = "<axis><xyz>0 0 1</xyz>" + of_axis + "</axis>";
+    return robot_of("axis.sdf", world_of(of_world + model_of(joint_of_balls("revolute", axis))))
+        .ignored;
   };
   EXPECT_THAT(
       ignored("<physics name='fast' type='ode'><max_step_size>0.002</max_step_size></physics>"
