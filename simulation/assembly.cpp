@@ -10,23 +10,6 @@
 namespace touchstone {
 namespace {
 
-/// By body: the first of those that fixed joints between bodies make one rigid body.
-std::vector<int> first_of_rigid(const Scene& scene) {
-  std::vector<int> group(scene.bodies.size());
-  std::iota(group.begin(), group.end(), 0);
-  const auto root = [&](int i) {
-    while (group[i] != i) i = group[i];
-    return i;
-  };
-  for (const Joint& joint : scene.joints) {
-    if (joint.kind != JointKind::fixed || joint.b == world_body) continue;
-    const int a = root(joint.a), b = root(joint.b);
-    group[std::max(a, b)] = std::min(a, b);
-  }
-  for (int& g : group) g = root(g);
-  return group;
-}
-
 /// By first body of what is rigid: is it fixed, or joined rigidly to the world?
 std::vector<bool> is_held(const Scene& scene, const std::vector<int>& first) {
   std::vector<bool> held(scene.bodies.size());
@@ -70,13 +53,29 @@ void join(const Scene& scene, Assembly& assembly) {
 
 }  // namespace
 
+std::vector<int> connected(const Scene& scene, bool rigidly) {
+  std::vector<int> group(scene.bodies.size());
+  std::iota(group.begin(), group.end(), 0);
+  const auto root = [&](int i) {
+    while (group[i] != i) i = group[i];
+    return i;
+  };
+  for (const Joint& joint : scene.joints) {
+    if (joint.b == world_body || (rigidly && joint.kind != JointKind::fixed)) continue;
+    const int a = root(joint.a), b = root(joint.b);
+    group[std::max(a, b)] = std::min(a, b);
+  }
+  for (int& g : group) g = root(g);
+  return group;
+}
+
 Pose relative(const Pose& X_WA, const Pose& X_WB) {
   const Eigen::Quaterniond back = X_WA.unit_orientation().conjugate();
   return {back * (X_WB.position() - X_WA.position()), back * X_WB.unit_orientation()};
 }
 
 std::vector<Assembly> assemblies(const Scene& scene) {
-  const std::vector<int> first = first_of_rigid(scene);
+  const std::vector<int> first = connected(scene, true);
   const std::vector<bool> held = is_held(scene, first);
   const int count = static_cast<int>(scene.bodies.size());
   std::vector<int> place(scene.bodies.size(), -1);
@@ -161,7 +160,7 @@ Touching::Touching(const Scene& scene)
   for (const auto& [a, b] : scene.apart) {
     allowed_[a * count_ + b] = allowed_[b * count_ + a] = false;
   }
-  const std::vector<int> first = first_of_rigid(scene);
+  const std::vector<int> first = connected(scene, true);
   std::map<int, std::vector<std::size_t>> rigid;
   for (std::size_t b = 0; b < count_; ++b) rigid[first[b]].push_back(b);
   for (const Joint& joint : scene.joints) {

@@ -25,6 +25,10 @@ struct Assembly {
 /// The assemblies of a scene that check_scene accepts, in the order of their first bodies.
 std::vector<Assembly> assemblies(const Scene& scene);
 
+/// By body: the first of those that joints connect with it, other than through the world; by fixed
+/// joints alone if `rigidly`.
+std::vector<int> connected(const Scene& scene, bool rigidly);
+
 /// By body: do forces move it? Not if it is fixed or driven, or rigidly joined to what is.
 std::vector<bool> moved_by_forces(const Scene& scene);
 

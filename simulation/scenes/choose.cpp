@@ -93,28 +93,16 @@ class ModelSearch {
     return std::nullopt;
   }
 
-  /// Those that have not been run yet.
-  std::vector<SceneRun> fresh(const std::vector<SceneRun>& wanted) const {
-    std::vector<SceneRun> result;
-    for (const SceneRun& run : wanted) {
-      const bool twice = std::any_of(result.begin(), result.end(), [&](const SceneRun& other) {
-        return other.models == run.models;
-      });
-      if (!twice && !find(run.models)) result.push_back(run);
-    }
-    return result;
-  }
-
   /// Runs and judges those that have not been run yet.
   void judge_new(const std::vector<SceneRun>& wanted) {
-    std::vector<SceneRun> runs = fresh(wanted);
+    std::vector<SceneRun> runs = fresh(wanted, choice_.runs, &SceneRun::models);
     judge_.judge(runs, choice_.trials.disturbances);
     choice_.runs.insert(choice_.runs.end(), runs.begin(), runs.end());
   }
 
   /// The same, but leaves out those that hold as written and save neither queries' time nor points.
   void judge_promising(const std::vector<SceneRun>& wanted) {
-    std::vector<SceneRun> runs = fresh(wanted);
+    std::vector<SceneRun> runs = fresh(wanted, choice_.runs, &SceneRun::models);
     judge_.judge(runs, 0);
     std::erase_if(runs, [&](const SceneRun& r) { return r.holds() && !is_promising(r); });
     judge_.judge(runs, choice_.trials.disturbances);
@@ -243,25 +231,9 @@ class ModelSearch {
     return sum;
   }
 
-  /// The runs that promise to be the answer: the one that holds and is roughly the cheapest, and
-  /// the simplest of those that may cost much the same, twice the noise apart: what is within a
-  /// tenth by its times must not be left out by an estimate.
-  std::vector<std::size_t> finalists() const {
-    constexpr std::size_t max_count = 6;
-    std::vector<std::size_t> result;
-    for (std::size_t i = 1; i < choice_.runs.size(); ++i) {
-      if (can_be_answer(choice_.runs[i]) && is_promising(choice_.runs[i])) result.push_back(i);
-    }
-    if (result.empty()) return result;
-    const auto cost = [&](std::size_t i) { return estimate(choice_.runs[i]); };
-    const std::size_t cheapest = *std::ranges::min_element(result, {}, cost);
-    const double limit = cost(cheapest) / (cheaper_share * cheaper_share);
-    std::erase_if(result, [&](std::size_t i) { return cost(i) > limit; });
-    std::ranges::sort(result, {}, [&](std::size_t i) {
-      return std::tuple(i != cheapest, rank(choice_.runs[i].models), i);
-    });
-    if (result.size() > max_count) result.resize(max_count);
-    return result;
+  /// A run as what may be the answer, if it takes so long.
+  Finalist finalist(std::size_t i, double seconds) const {
+    return {i, seconds, rank(choice_.runs[i].models)};
   }
 
   /// The engines' routines that hold and seem cheaper than every finalist, or than the exact run if
@@ -283,7 +255,12 @@ class ModelSearch {
   /// Times what has to be timed and returns the run that is the answer.
   std::size_t best() {
     constexpr std::size_t few = 5, many = 10;
-    std::vector<std::size_t> last = finalists();
+    std::vector<Finalist> promising;
+    for (std::size_t i = 1; i < choice_.runs.size(); ++i) {
+      const SceneRun& run = choice_.runs[i];
+      if (can_be_answer(run) && is_promising(run)) promising.push_back(finalist(i, estimate(run)));
+    }
+    std::vector<std::size_t> last = finalists(promising);
     std::ranges::copy(rivals(last), std::back_inserter(last));
     const auto is_timed = [&](std::size_t i) { return choice_.runs[i].timing > 0; };
     if (!std::ranges::all_of(last, is_timed)) time(last, few);
@@ -317,7 +294,7 @@ class ModelSearch {
     for (std::size_t i = 1; i < choice_.runs.size(); ++i) {
       const SceneRun& run = choice_.runs[i];
       if (run.timing == 0 || !can_be_answer(run)) continue;
-      costs.push_back({i, run.seconds(), rank(run.models)});
+      costs.push_back(finalist(i, run.seconds()));
     }
     const double limit = (1 - noise_of_step) * choice_.runs[0].seconds();
     return simplest_of_cheapest(costs, limit).value_or(0);

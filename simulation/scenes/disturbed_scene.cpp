@@ -12,6 +12,7 @@
 #include "candidates/host/progress.hpp"
 #include "candidates/host/worker_processes.hpp"
 #include "properties/draw.hpp"
+#include "simulation/assembly.hpp"
 
 namespace touchstone {
 namespace {
@@ -37,20 +38,8 @@ struct Disturbance {
   Vec3 moved(const Vec3& point) const { return centre + shift + turn * (point - centre); }
 };
 
-/// By body: a body that stands for all that joints connect it with, except through the world.
-std::vector<int> mechanisms(const Scene& scene) {
-  std::vector<int> group(scene.bodies.size());
-  std::iota(group.begin(), group.end(), 0);
-  const auto root = [&](int i) {
-    while (group[i] != i) i = group[i];
-    return i;
-  };
-  for (const Joint& joint : scene.joints) {
-    if (joint.b != world_body) group[root(joint.a)] = root(joint.b);
-  }
-  for (int& g : group) g = root(g);
-  return group;
-}
+/// By body: one that stands for all that joints connect it with.
+std::vector<int> mechanisms(const Scene& scene) { return connected(scene, false); }
 
 /// By mechanism: is it held by the world, or by a body that forces do not move?
 std::vector<bool> held_mechanisms(const Scene& scene, const std::vector<int>& mechanism) {
@@ -286,22 +275,18 @@ std::vector<std::vector<double>> least_step_seconds(
   return least;
 }
 
-std::vector<Trajectory> ends_of_runs(const Scene& scene, const Trials& trials, unsigned workers,
-                                     const std::function<Trajectory(const DisturbedScene&)>& run,
-                                     const std::string& name) {
-  const std::size_t count = trials.of_answer() + 1;
-  Progress progress("exact runs, disturbed", count);
-  const auto texts = run_in_processes(
-      count, workers,
+std::vector<std::string> exact_runs(const Scene& scene, std::uint64_t seed,
+                                    std::size_t disturbances, unsigned workers,
+                                    const std::string& name,
+                                    const std::function<std::string(const DisturbedScene&)>& make) {
+  Progress progress("exact runs, disturbed", disturbances + 1);
+  return run_in_processes(
+      disturbances + 1, workers,
       [&](std::size_t i) {
-        const DisturbedScene disturbed(scene, trials.seed, i);
-        return to_bytes(ends_of(disturbed.turned_back(run(disturbed))));
+        return make({scene, seed, i});
       },
       [&](std::size_t i) { return fmt::format("{}, disturbance {}", name, i); },
       [&](std::size_t done) { progress.update(done); });
-  std::vector<Trajectory> ends;
-  for (const std::string& text : texts) ends.push_back(from_bytes<Trajectory>(text));
-  return ends;
 }
 
 }  // namespace touchstone

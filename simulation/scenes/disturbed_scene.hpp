@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <concepts>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -117,12 +119,33 @@ struct RepeatedRun {
 /// Index of the need that broke first; −1: all hold.
 int first_broken(const std::vector<Verdict>& verdicts);
 
+/// Those of the wanted runs that are not among the known ones, each once. `key`: the member that
+/// tells them apart.
+template <class Run, class Key>
+std::vector<Run> fresh(const std::vector<Run>& wanted, const std::vector<Run>& known, Key key) {
+  std::vector<Run> result;
+  for (const Run& run : wanted) {
+    const auto is_same = [&](const Run& other) { return other.*key == run.*key; };
+    if (std::ranges::none_of(known, is_same) && std::ranges::none_of(result, is_same)) {
+      result.push_back(run);
+    }
+  }
+  return result;
+}
+
 /// Adds to the runs what they come to under the disturbances up to `last` that they have not had;
 /// those that broke a need get no more. `trial` makes one run, by the index in `runs`, in one of
 /// the worker processes; the results do not depend on their number.
 void repeat(const std::vector<RepeatedRun*>& runs, std::size_t last, unsigned workers,
             const std::function<Trial(std::size_t run, std::size_t disturbance)>& trial,
             const std::function<std::string(std::size_t run)>& name);
+template <std::derived_from<RepeatedRun> Run>
+void repeat(std::vector<Run>& runs, std::size_t last, unsigned workers, const auto& trial,
+            const auto& name) {
+  std::vector<RepeatedRun*> repeated;
+  for (Run& run : runs) repeated.push_back(&run);
+  repeat(repeated, last, workers, trial, name);
+}
 
 /// Runs made in turns, so that what else the machine does meets all alike: of each of them the
 /// least time of every step in so many rounds. `step_seconds` makes a run, by its index.
@@ -130,10 +153,11 @@ std::vector<std::vector<double>> least_step_seconds(
     std::size_t runs, const std::function<std::vector<double>(std::size_t run)>& step_seconds,
     std::size_t rounds = 5);
 
-/// The first and last frames of runs, turned back, by disturbance, of all that an answer has to
-/// bear: what relative needs are measured against. `run` makes one, in one of the worker processes.
-std::vector<Trajectory> ends_of_runs(const Scene& scene, const Trials& trials, unsigned workers,
-                                     const std::function<Trajectory(const DisturbedScene&)>& run,
-                                     const std::string& name);
+/// What exact runs of a scene come to, as bytes, by disturbance: as it is written, and under so
+/// many. `make` makes one, in one of the worker processes. `name` is that of the scene in errors.
+std::vector<std::string> exact_runs(const Scene& scene, std::uint64_t seed,
+                                    std::size_t disturbances, unsigned workers,
+                                    const std::string& name,
+                                    const std::function<std::string(const DisturbedScene&)>& make);
 
 }  // namespace touchstone

@@ -8,8 +8,6 @@
 #include <tuple>
 
 #include "candidates/host/contained.hpp"
-#include "candidates/host/progress.hpp"
-#include "candidates/host/worker_processes.hpp"
 #include "reference/invalid_input.hpp"
 #include "simulation/scenes/choose.hpp"
 
@@ -161,23 +159,16 @@ class SettingSearch {
     const auto asks = [](const auto& need) { return need->is_relative(); };
     if (std::ranges::none_of(needs, asks)) return;
     const EngineSetting exact = uniform({Kind::exact});
-    const std::size_t count = options_.trials.of_answer() + 1;
-    Progress progress("exact runs, disturbed", count);
-    const auto texts = run_in_processes(
-        count, options_.workers,
-        [&](std::size_t disturbance) {
-          const DisturbedScene disturbed(scene, options_.trials.seed, disturbance);
-          const Contained ran = run_contained(
-              [&] {
-                return to_bytes(ends_of(disturbed.turned_back(run_of(exact, disturbed, false))));
-              },
-              max_engine_seconds);
-          return to_bytes(ran.end, ran.text);
-        },
-        [&](std::size_t i) { return fmt::format("{}, disturbance {}", name(), i); },
-        [&](std::size_t done) { progress.update(done); });
-    for (std::size_t i = 0; i < texts.size() && choice_.exact_end.empty(); ++i) {
-      BytesIn in(texts[i]);
+    const auto make = [&](const DisturbedScene& disturbed) {
+      const Contained ran = run_contained(
+          [&] { return to_bytes(ends_of(disturbed.turned_back(run_of(exact, disturbed, false)))); },
+          max_engine_seconds);
+      return to_bytes(ran.end, ran.text);
+    };
+    const auto runs = exact_runs(scene, options_.trials.seed, options_.trials.of_answer(),
+                                 options_.workers, name(), make);
+    for (std::size_t i = 0; i < runs.size() && choice_.exact_end.empty(); ++i) {
+      BytesIn in(runs[i]);
       const auto end = in.next<Contained::End>();
       const auto text = in.next<std::string>();
       if (end == Contained::End::returned) {
@@ -232,13 +223,8 @@ class SettingSearch {
 
   /// Adds those that are new, and returns whether there were any.
   bool judge_and_time(const std::vector<EngineSetting>& wanted) {
-    std::vector<EngineSetting> fresh;
-    for (const EngineSetting& setting : wanted) {
-      const auto is_same = [&](const EngineSetting& s) { return s.shapes == setting.shapes; };
-      if (std::ranges::none_of(choice_.settings, is_same) && std::ranges::none_of(fresh, is_same)) {
-        fresh.push_back(setting);
-      }
-    }
+    std::vector<EngineSetting> fresh =
+        touchstone::fresh(wanted, choice_.settings, &EngineSetting::shapes);
     if (fresh.empty()) return false;
     judge(fresh, options_.trials.disturbances);
     const std::size_t first = choice_.settings.size();
@@ -252,10 +238,8 @@ class SettingSearch {
   }
 
   void judge(std::vector<EngineSetting>& settings, std::size_t last) {
-    std::vector<RepeatedRun*> runs;
-    for (EngineSetting& setting : settings) runs.push_back(&setting);
     repeat(
-        runs, last, options_.workers,
+        settings, last, options_.workers,
         [&](std::size_t i, std::size_t disturbance) { return trial_of(settings[i], disturbance); },
         [&](std::size_t) { return name(); });
   }
@@ -311,29 +295,16 @@ class SettingSearch {
     return sum;
   }
 
-  double seconds(std::size_t index) const {
-    return choice_.settings[index].step_seconds.value_or(infinity);
-  }
-
-  /// The settings among which the answer is: the engine's own, or where none of them holds those
-  /// with our routines, that take much the same as the cheapest; the simplest first.
-  std::vector<std::size_t> finalists() const {
-    constexpr std::size_t max_count = 6;
-    std::vector<std::size_t> result;
+  /// The settings among which the answer is, with their times: the engine's own, or where none of
+  /// them holds those with our routines.
+  std::vector<Finalist> promising() const {
+    std::vector<Finalist> result;
     const bool are_own = has_own_that_holds();
     for (std::size_t i = 0; i < choice_.settings.size(); ++i) {
       const EngineSetting& s = choice_.settings[i];
-      if (s.holds() && s.step_seconds && is_own(s) == are_own) result.push_back(i);
+      if (!s.holds() || !s.step_seconds || is_own(s) != are_own) continue;
+      result.push_back({i, *s.step_seconds, rank(i)});
     }
-    if (result.empty()) return result;
-    const std::size_t cheapest =
-        *std::ranges::min_element(result, {}, [&](std::size_t i) { return seconds(i); });
-    // Those timed at another time may differ by the noise twice.
-    const double limit = seconds(cheapest) / (cheaper_share * cheaper_share);
-    std::erase_if(result, [&](std::size_t i) { return seconds(i) > limit; });
-    std::ranges::sort(result, {},
-                      [&](std::size_t i) { return std::tuple(i != cheapest, rank(i), i); });
-    if (result.size() > max_count) result.resize(max_count);
     return result;
   }
 
@@ -342,7 +313,7 @@ class SettingSearch {
   std::optional<std::size_t> best() {
     std::vector<std::size_t> last, compared;
     for (;;) {
-      last = finalists();
+      last = finalists(promising());
       if (last.empty()) return std::nullopt;
       for (const std::size_t i : last) {
         if (!has(compared, i)) compared.push_back(i);
@@ -352,7 +323,9 @@ class SettingSearch {
       time(compared);
     }
     std::vector<Finalist> costs;
-    for (const std::size_t i : last) costs.push_back({i, seconds(i), rank(i)});
+    for (const std::size_t i : last) {
+      costs.push_back({i, choice_.settings[i].step_seconds.value(), rank(i)});
+    }
     return simplest_of_cheapest(costs, infinity);
   }
 

@@ -1,33 +1,24 @@
 #include "simulation/scenes/exact_motion.hpp"
 
 #include <algorithm>
-#include <fmt/format.h>
 #include <functional>
 #include <stdexcept>
 
 #include "candidates/host/contained.hpp"
-#include "candidates/host/progress.hpp"
-#include "candidates/host/worker_processes.hpp"
 #include "simulation/scenes/choose.hpp"
 #include "simulation/scenes/engine_choice.hpp"
 
 namespace touchstone {
 namespace {
 
-/// Of all runs; `run` makes one, in one of the worker processes.
+/// Of all runs; `run` makes one, as bytes, in one of the worker processes.
 ExactMotion motion_of_all(const Scene& scene, const Trials& trials, unsigned workers,
                           const std::string& name,
-                          const std::function<ExactMotion(const DisturbedScene&)>& run) {
-  const std::size_t count = trials.disturbances + 1;
-  Progress progress("exact runs, disturbed", count);
-  const auto texts = run_in_processes(
-      count, workers,
-      [&](std::size_t i) { return to_bytes(run(DisturbedScene(scene, trials.seed, i))); },
-      [&](std::size_t i) { return fmt::format("{}, disturbance {}", name, i); },
-      [&](std::size_t done) { progress.update(done); });
-  auto all = from_bytes<ExactMotion>(texts.front());
-  for (const std::string& text : texts) {
-    const auto one = from_bytes<ExactMotion>(text);
+                          const std::function<std::string(const DisturbedScene&)>& run) {
+  const auto runs = exact_runs(scene, trials.seed, trials.disturbances, workers, name, run);
+  auto all = from_bytes<ExactMotion>(runs.front());
+  for (const std::string& bytes : runs) {
+    const auto one = from_bytes<ExactMotion>(bytes);
     for (std::size_t i = 0; i < all.depths.size(); ++i) {
       all.depths[i] = std::max(all.depths[i], one.depths[i]);
     }
@@ -63,7 +54,7 @@ ExactMotion exact_motion(const Scene& scene, const Trials& trials, unsigned work
   Processes processes(limits);  // each worker process starts its own
   return motion_of_all(scene, trials, workers, name, [&](const DisturbedScene& disturbed) {
     CandidateModel model(processes.of(*exact_first({}).front()));
-    return motion_of(scene, disturbed.turned_back(run_scene(disturbed.scene, model)));
+    return to_bytes(motion_of(scene, disturbed.turned_back(run_scene(disturbed.scene, model))));
   });
 }
 
@@ -77,7 +68,7 @@ ExactMotion exact_motion_in(const std::string& engine, const Scene& scene, const
           return to_bytes(motion_of(scene, disturbed.turned_back(run)));
         },
         max_engine_seconds);
-    if (ran.end == Contained::End::returned) return from_bytes<ExactMotion>(ran.text);
+    if (ran.end == Contained::End::returned) return ran.text;
     throw std::runtime_error("the engine ended a run with our routines: " + ran.text);
   });
 }

@@ -19,6 +19,12 @@ struct Finalist {
   std::size_t rank;  ///< 0 is the simplest
 };
 
+/// Indices of the runs or settings that may prove to be the answer once they are timed together: of
+/// these the one that now seems the cheapest first, then the simplest that may cost much the same.
+/// Twice the noise apart, for what is within a tenth by its times must not be left out by an
+/// estimate; six at most.
+std::vector<std::size_t> finalists(std::vector<Finalist> promising);
+
 /// Index of the simplest finalist of those that take at most `limit` seconds and much the same as
 /// the cheapest; of equally simple ones the first. Absent where all take longer than the limit.
 std::optional<std::size_t> simplest_of_cheapest(const std::vector<Finalist>& finalists,

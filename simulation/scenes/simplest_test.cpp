@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 #include <limits>
+#include <vector>
 
 namespace touchstone {
 namespace {
@@ -39,6 +40,19 @@ TEST(SimplestOfCheapest, KeepsToTheLimit) {
   EXPECT_EQ(simplest_of_cheapest({{1, 1.0, 1}, {2, 1.04, 0}}, 1.0), 1U);
   EXPECT_EQ(simplest_of_cheapest({{1, 1.0, 1}, {2, 1.04, 0}}, 0.99), std::nullopt);
   EXPECT_EQ(simplest_of_cheapest({}, any_time), std::nullopt);
+}
+
+// Within twice the noise of the cheapest: 1 / 0.81 of it.
+TEST(Finalists, AreTheCheapestAndThenTheSimplestThatMayCostMuchTheSame) {
+  const std::vector<Finalist> promising = {{3, 1.23, 1}, {4, 1.24, 0}, {5, 1.0, 9}, {6, 1.1, 0}};
+  EXPECT_EQ(finalists(promising), (std::vector<std::size_t>{5, 6, 3}));
+  EXPECT_TRUE(finalists({}).empty());
+}
+
+TEST(Finalists, AreSixAtMost) {
+  std::vector<Finalist> alike;
+  for (std::size_t i = 0; i < 9; ++i) alike.push_back({i, 1, 9 - i});
+  EXPECT_EQ(finalists(alike), (std::vector<std::size_t>{0, 8, 7, 6, 5, 4}));
 }
 
 }  // namespace

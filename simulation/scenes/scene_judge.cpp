@@ -1,3 +1,5 @@
+#include "simulation/scenes/scene_judge.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -12,7 +14,6 @@
 #include "oracle/judge/score.hpp"
 #include "oracle/truth.hpp"
 #include "reference/invalid_input.hpp"
-#include "simulation/scenes/choose.hpp"
 
 namespace touchstone {
 namespace {
@@ -333,13 +334,15 @@ SceneJudge::SceneJudge(const SceneFile& file, const PairKinds& kinds, const Cand
 const std::vector<Trajectory>& SceneJudge::exact_runs() {
   if (!exact_runs_.empty()) return exact_runs_;
   Processes processes(options_.limits);  // each worker process starts its own
-  exact_runs_ = ends_of_runs(
-      file_.scene, options_.trials, options_.workers,
-      [&](const DisturbedScene& scene) {
-        CandidateModel model(processes.of(exact_));
-        return run_scene(scene.scene, model);
-      },
-      file_.name);
+  const auto make = [&](const DisturbedScene& scene) {
+    CandidateModel model(processes.of(exact_));
+    return to_bytes(ends_of(scene.turned_back(run_scene(scene.scene, model))));
+  };
+  for (const std::string& run :
+       touchstone::exact_runs(file_.scene, options_.trials.seed, options_.trials.of_answer(),
+                              options_.workers, file_.name, make)) {
+    exact_runs_.push_back(from_bytes<Trajectory>(run));
+  }
   return exact_runs_;
 }
 
@@ -369,9 +372,7 @@ void SceneJudge::judge(std::vector<SceneRun>& runs, std::size_t last) {
                                    trajectory, model_of, exact_, processes);
     return trial;
   };
-  std::vector<RepeatedRun*> repeated;
-  for (SceneRun& run : runs) repeated.push_back(&run);
-  repeat(repeated, last, options_.workers, trial_of,
+  repeat(runs, last, options_.workers, trial_of,
          [&](std::size_t run) { return file_.name + " with " + runs[run].name; });
 }
 
