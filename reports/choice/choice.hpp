@@ -91,6 +91,14 @@ std::string pairs_text(const PairsChoice& choice, const std::string& folder,
 std::string setting_name(const EngineSetting& setting);
 std::string engine_choice_text(const EngineChoice& choice, std::size_t columns = 80);
 
+/// The scene's size, what it says of itself, and how often a run of it is made. `where`: its name,
+/// and the engine that it is in.
+std::string scene_text(const std::string& where, const SceneFile& file, const Trials& trials);
+/// What broke first in a run: "can stands within 0.5°: 12.3° at 0.71 s, disturbance 3", or why it
+/// ended.
+std::string failure(const SceneFile& file, const RepeatedRun& run);
+/// The same in few words: "need 3, 0.71 s, disturbance 3".
+std::string first_failure(const RepeatedRun& run);
 /// ", disturbance 3"; empty for the scene as it is written.
 std::string in_disturbance(const RepeatedRun& run);
 /// "16/17": the runs in which all needs held, of those that were made.
@@ -99,6 +107,9 @@ std::string share_held(const RepeatedRun& run);
 std::string narrow_row(const std::string& name, const std::vector<std::string>& parts);
 /// Terminals of less columns get tables in words.
 inline constexpr std::size_t columns_of_tables = 80;
+
+/// What choose.json says of any run: the verdicts on it, and in how many of its trials all held.
+nlohmann::json run_json(const RepeatedRun& run);
 
 /// What choose.json says of a scene.
 nlohmann::json scene_json(const SceneFile& file, const Trials& trials, const Spreads& spreads);

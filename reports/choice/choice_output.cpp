@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -11,6 +10,7 @@
 
 #include "properties/files/configuration_json.hpp"
 #include "properties/files/disk.hpp"
+#include "properties/files/strict_json.hpp"
 #include "reports/choice/choice.hpp"
 #include "reports/make_report.hpp"
 #include "reports/pages/page.hpp"
@@ -22,27 +22,17 @@ namespace {
 
 using nlohmann::json;
 
-json finite_json(double x) { return std::isfinite(x) ? json(x) : json(nullptr); }
-
 json run_json(const Choice& choice, std::size_t index, const std::string& folder) {
   const SceneRun& run = choice.runs[index];
   const double steps = choice.steps();
   json models = json::array();
   for (const Candidate* m : run.models) models.push_back(m->name);
-  json verdicts = json::array();
-  for (const Verdict& v : run.verdicts) {
-    verdicts.push_back({{"value", finite_json(v.value)},
-                        {"limit", v.limit},
-                        {"time", v.time},
-                        {"holds", v.holds()}});
-  }
-  json result = {{"name", run.name},
+  json result = run_json(run);
+  result.update({{"name", run.name},
                  {"models", models},
                  {"models_alone", choice.has_models_alone(run)},
                  {"microseconds_per_step", run.nanoseconds / 1000 / steps},
                  {"step_microseconds", run.seconds() * 1e6 / steps},
-                 {"error", finite_json(run.error())},
-                 {"holds", run.holds()},
                  {"points_per_step", run.points},
                  {"solver_microseconds_per_step", run.solver_seconds * 1e6 / steps},
                  {"timed", run.timing > 0},
@@ -51,14 +41,8 @@ json run_json(const Choice& choice, std::size_t index, const std::string& folder
                  {"strayed_body", run.straying.body},
                  {"tilted", run.straying.tilt},
                  {"tilted_body", run.straying.tilted_body},
-                 {"trials", run.trials},
-                 {"held", run.held},
-                 {"disturbance", run.disturbance},
                  {"render", render_command(choice, run)},
-                 {"verdicts", verdicts},
-                 {"first_broken", nullptr},
-                 {"evidence", nullptr}};
-  if (!run.holds()) result["first_broken"] = run.first_broken();
+                 {"evidence", nullptr}});
   if (const auto& e = run.evidence) {
     const std::string file = evidence_file(choice, index, folder);
     result["evidence"] = {{"bodies", e->bodies},
@@ -73,10 +57,10 @@ json run_json(const Choice& choice, std::size_t index, const std::string& folder
 
 json score_json(const std::string& candidate, const ReplayScore& s) {
   return {{"name", candidate},
-          {"nanoseconds", s.nanoseconds ? json(*s.nanoseconds) : json(nullptr)},
+          {"nanoseconds", or_null(s.nanoseconds)},
           {"count", s.count},
           {"agree", s.agree},
-          {"depth_error", finite_json(s.depth_error)},
+          {"depth_error", or_null(s.depth_error)},
           {"normal_angle", s.normal_angle}};
 }
 
@@ -157,6 +141,21 @@ void write_configuration(const std::string& file, const Configuration& configura
 
 }  // namespace
 
+json run_json(const RepeatedRun& run) {
+  json verdicts = json::array();
+  for (const Verdict& v : run.verdicts) {
+    verdicts.push_back(
+        {{"value", or_null(v.value)}, {"limit", v.limit}, {"time", v.time}, {"holds", v.holds()}});
+  }
+  return {{"error", or_null(run.error())},
+          {"holds", run.holds()},
+          {"trials", run.trials},
+          {"held", run.held},
+          {"disturbance", run.disturbance},
+          {"verdicts", verdicts},
+          {"first_broken", run.holds() ? json(nullptr) : json(run.first_broken())}};
+}
+
 json scene_json(const SceneFile& file, const Trials& trials, const Spreads& spreads) {
   json needs = json::array(), undecidable = json::array();
   for (std::size_t i = 0; i < file.needs.size(); ++i) {
@@ -166,10 +165,8 @@ json scene_json(const SceneFile& file, const Trials& trials, const Spreads& spre
     if (is_compared) needs.back()["spread"] = *spreads.of_needs[i];
   }
   for (const Undecidable& u : spreads.undecidable) {
-    undecidable.push_back({{"text", u.text},
-                           {"unit", u.unit},
-                           {"limit", u.limit},
-                           {"spread", finite_json(u.spread)}});
+    undecidable.push_back(
+        {{"text", u.text}, {"unit", u.unit}, {"limit", u.limit}, {"spread", or_null(u.spread)}});
   }
   return {{"name", file.name},
           {"description", file.description},

@@ -121,22 +121,6 @@ std::string cheaper_routines(const Choice& choice) {
 
 namespace {
 
-/// "can stands within 0.5°: 12.3° at 0.71 s"
-std::string failure(const Choice& choice, const SceneRun& run) {
-  const int broken = run.first_broken();
-  const Need& need = *choice.file.needs[broken];
-  const Verdict& verdict = run.verdicts[broken];
-  return fmt::format("{}: {} at {:.2f} s{}", need.text(choice.file.scene), measured(verdict, need),
-                     verdict.time, in_disturbance(run));
-}
-
-/// "need 3, 0.71 s"
-std::string first_failure(const SceneRun& run) {
-  const int broken = run.first_broken();
-  return fmt::format("need {}, {:.2f} s{}", broken + 1, run.verdicts[broken].time,
-                     in_disturbance(run));
-}
-
 double step_microseconds(const Choice& choice, const SceneRun& run) {
   return 1e6 * run.seconds() / choice.steps();
 }
@@ -192,7 +176,7 @@ std::string next_cheaper(const Choice& choice, std::size_t kind, const std::stri
                                run.timing > 0 ? "" : "about ", microseconds(run),
                                microseconds(choice.runs[choice.answer]));
   }
-  lines += fmt::format("breaks\n      {}\n      {}\n", failure(choice, run),
+  lines += fmt::format("breaks\n      {}\n      {}\n", failure(choice.file, run),
                        render_command(choice, run));
   if (const auto& e = run.evidence) {
     lines += fmt::format("      {} at {:.2f} s: {}\n      {}\n", e->bodies, e->time, e->wrong,
@@ -321,6 +305,33 @@ std::string in_disturbance(const RepeatedRun& run) {
   return run.disturbance == 0 ? "" : fmt::format(", disturbance {}", run.disturbance);
 }
 
+std::string scene_text(const std::string& where, const SceneFile& file, const Trials& trials) {
+  std::string lines =
+      fmt::format("{}: {}, {:g} s in steps of {:.2g} s\n", where,
+                  counted(file.scene.bodies.size(), "body"), file.scene.duration, file.scene.step);
+  if (!file.description.empty()) lines += file.description + '\n';
+  if (trials.disturbances == 0) return lines;
+  return lines + fmt::format("Each run as written, then under {}, the answer under {} (seed {})\n",
+                             counted(trials.disturbances, "disturbance"), trials.of_answer(),
+                             trials.seed);
+}
+
+std::string failure(const SceneFile& file, const RepeatedRun& run) {
+  if (!run.end.empty()) return run.end + in_disturbance(run);
+  const int broken = run.first_broken();
+  const Need& need = *file.needs[broken];
+  const Verdict& verdict = run.verdicts[broken];
+  return fmt::format("{}: {} at {:.2f} s{}", need.text(file.scene), measured(verdict, need),
+                     verdict.time, in_disturbance(run));
+}
+
+std::string first_failure(const RepeatedRun& run) {
+  if (!run.end.empty()) return run.end + in_disturbance(run);
+  const int broken = run.first_broken();
+  return fmt::format("need {}, {:.2f} s{}", broken + 1, run.verdicts[broken].time,
+                     in_disturbance(run));
+}
+
 std::string share_held(const RepeatedRun& run) {
   return fmt::format("{}/{}", run.held, run.trials);
 }
@@ -332,14 +343,7 @@ std::string narrow_row(const std::string& name, const std::vector<std::string>& 
 std::string choice_text(const Choice& choice, const std::string& folder, std::size_t columns) {
   const SceneFile& file = choice.file;
   const SceneRun& answer = choice.runs[choice.answer];
-  std::string lines =
-      fmt::format("{}: {}, {:g} s in steps of {:.2g} s\n", file.name,
-                  counted(file.scene.bodies.size(), "body"), file.scene.duration, file.scene.step);
-  if (!file.description.empty()) lines += file.description + '\n';
-  if (const Trials& t = choice.trials; t.disturbances > 0) {
-    lines += fmt::format("Each run as written, then under {}, the answer under {} (seed {})\n",
-                         counted(t.disturbances, "disturbance"), t.of_answer(), t.seed);
-  }
+  std::string lines = scene_text(file.name, file, choice.trials);
   lines += undecidable_text(choice.spreads) + '\n' + headline(choice);
   if (const auto text = cheaper_routines(choice); !choice.impossible && !text.empty()) {
     lines += text + '\n';

@@ -1,12 +1,10 @@
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <sstream>
 
 #include <nlohmann/json.hpp>
 
-#include "properties/files/given_text.hpp"
 #include "reports/choice/choice.hpp"
 #include "reports/make_report.hpp"
 #include "reports/report_json.hpp"
@@ -30,24 +28,6 @@ std::string bodies_of(const EngineChoice& choice, const CylinderSize& size) {
 
 std::string microseconds(const EngineSetting& setting) {
   return setting.step_seconds ? fmt::format("{:.2g}", *setting.step_seconds * 1e6) : "";
-}
-
-/// "can stands within 0.5°: 12.3° at 0.71 s, disturbance 3"
-std::string failure(const EngineChoice& choice, const EngineSetting& setting) {
-  if (!setting.end.empty()) return setting.end + in_disturbance(setting);
-  const int broken = setting.first_broken();
-  const Need& need = *choice.file.needs[broken];
-  const Verdict& verdict = setting.verdicts[broken];
-  return fmt::format("{}: {} at {:.2f} s{}", need.text(choice.file.scene), measured(verdict, need),
-                     verdict.time, in_disturbance(setting));
-}
-
-/// "need 2, 0.53 s, disturbance 3"
-std::string first_failure(const EngineSetting& setting) {
-  if (!setting.end.empty()) return setting.end + in_disturbance(setting);
-  const int broken = setting.first_broken();
-  return fmt::format("need {}, {:.2f} s{}", broken + 1, setting.verdicts[broken].time,
-                     in_disturbance(setting));
 }
 
 std::size_t broken_of(const EngineSetting& setting) {
@@ -93,7 +73,7 @@ std::string headline(const EngineChoice& choice) {
                     setting_name(answer), microseconds(answer), took, answer.points, usual.points);
     lines += usual.holds()
                  ? "The default cylinder meets all needs, too.\n"
-                 : fmt::format("The default cylinder breaks\n  {}\n", failure(choice, usual));
+                 : fmt::format("The default cylinder breaks\n  {}\n", failure(choice.file, usual));
   }
   if (answer.has(EngineShape::Kind::exact)) {
     lines += "None of the engine's own shapes meets all needs.\n";
@@ -137,29 +117,18 @@ std::string settings_table(const EngineChoice& choice, std::size_t columns) {
 }
 
 json setting_json(const EngineChoice& choice, const EngineSetting& setting) {
-  json shapes = json::array(), verdicts = json::array();
+  json shapes = json::array();
   for (const EngineShape& shape : setting.shapes) shapes.push_back(engine_shape_name(shape));
-  for (const Verdict& v : setting.verdicts) {
-    verdicts.push_back({{"value", std::isfinite(v.value) ? json(v.value) : json(nullptr)},
-                        {"limit", v.limit},
-                        {"time", v.time},
-                        {"holds", v.holds()}});
-  }
-  const double error = setting.error();
-  return {{"name", setting_name(setting)},
-          {"shapes", shapes},
-          {"step_microseconds",
-           setting.step_seconds ? json(*setting.step_seconds * 1e6) : json(nullptr)},
-          {"points", setting.points},
-          {"holds", setting.holds()},
-          {"error", std::isfinite(error) ? json(error) : json(nullptr)},
-          {"trials", setting.trials},
-          {"held", setting.held},
-          {"disturbance", setting.disturbance},
-          {"verdicts", verdicts},
-          {"first_broken", setting.holds() ? json(nullptr) : json(setting.first_broken())},
-          {"end", setting.end.empty() ? json(nullptr) : json(setting.end)},
-          {"failure", setting.holds() ? json(nullptr) : json(failure(choice, setting))}};
+  json result = run_json(setting);
+  result.update(
+      {{"name", setting_name(setting)},
+       {"shapes", shapes},
+       {"step_microseconds",
+        setting.step_seconds ? json(*setting.step_seconds * 1e6) : json(nullptr)},
+       {"points", setting.points},
+       {"end", setting.end.empty() ? json(nullptr) : json(setting.end)},
+       {"failure", setting.holds() ? json(nullptr) : json(failure(choice.file, setting))}});
+  return result;
 }
 
 }  // namespace
@@ -174,14 +143,8 @@ std::string setting_name(const EngineSetting& setting) {
 std::string engine_choice_text(const EngineChoice& choice, std::size_t columns) {
   const SceneFile& file = choice.file;
   std::string text =
-      fmt::format("{} in {} {}: {}, {:g} s in steps of {:.2g} s\n", file.name, choice.engine.name,
-                  choice.engine.version, counted(file.scene.bodies.size(), "body"),
-                  file.scene.duration, file.scene.step);
-  if (!file.description.empty()) text += file.description + '\n';
-  if (const Trials& t = choice.trials; t.disturbances > 0) {
-    text += fmt::format("Each run as written, then under {}, the answer under {} (seed {})\n",
-                        counted(t.disturbances, "disturbance"), t.of_answer(), t.seed);
-  }
+      scene_text(fmt::format("{} in {} {}", file.name, choice.engine.name, choice.engine.version),
+                 file, choice.trials);
   for (const std::string& need : choice.left_out) {
     text += fmt::format("Left out, for an engine's normals are not judged: {}\n", need);
   }
