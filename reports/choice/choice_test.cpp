@@ -34,7 +34,7 @@ SceneFile can_with(const std::string& need) {
 }
 Choice choice_of(const std::string& need,
                  const std::vector<std::string>& candidates = {"capsule", "prism:64"}) {
-  return choose(can_with(need), {find_candidates(candidates)});
+  return choose(can_with(need), {find_candidates(candidates), 1, {}, {.disturbances = 2}});
 }
 const char* const stands = R"({"need": "stands", "body": "can", "degrees": 2})";
 const char* const elsewhere =
@@ -316,7 +316,7 @@ TEST(ChoiceText, FitsIntoTheTerminalButForCommandsToPaste) {
     }
   }
   EXPECT_THAT(choice_text(choice, "out"),
-              HasSubstr("under 16 disturbances, the answer under 80 (seed 1)\n"));
+              HasSubstr("under 2 disturbances, the answer under 10 (seed 1)\n"));
 }
 
 /// Of an engine: in a run a can leans by this with some shapes, and by more with the others.

@@ -1,5 +1,4 @@
-// Drives, pushes and the shapes that stand for cylinders in the engines' own worlds; the choice
-// among these.
+// The shapes that stand for cylinders in the engines' own worlds, and the choice among these.
 #include "simulation/scenes/engine_choice.hpp"
 
 #include <algorithm>
@@ -16,8 +15,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "candidates/host/contained.hpp"
 #include "reference/invalid_input.hpp"
+#include "simulation/each_world.hpp"
 #include "simulation/scenes/choose.hpp"
 #include "simulation/scenes/exact_motion.hpp"
 #include "simulation/scenes/robot_file.hpp"
@@ -35,64 +34,16 @@ Body ground() { return {.name = "ground", .shape = Plane(Vec3::UnitZ(), 0), .fix
 
 Body standing_can() { return {.name = "can", .shape = can, .pose = Pose(Vec3(0, 0, 0.1))}; }
 
-/// Position of the last body at the end of a run in an engine, in a process of its own.
-Vec3 end_in(const std::string& engine, const Scene& scene, const EngineSetup& setup = {}) {
-  const Contained ran = run_contained(
-      [&] {
-        const Trajectory run = run_scene(scene, in_engine(engine, setup), false);
-        const Vec3& p = run.frames.back().back().pose.position();
-        return json({p.x(), p.y(), p.z()}).dump();
-      },
-      max_engine_seconds);
-  EXPECT_EQ(ran.end, Contained::End::returned) << ran.text;
-  const json p = json::parse(ran.text);
-  return {p[0].get<double>(), p[1].get<double>(), p[2].get<double>()};
-}
-
 class InEngine : public testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(Each, InEngine, testing::ValuesIn(all_engines()), [](const auto& param) {
-  std::string name = param.param;
-  std::erase(name, '-');
-  return name;
-});
-
-TEST_P(InEngine, ADrivenPlateCarriesWhatStandsOnIt) {
-  Scene scene;
-  scene.duration = 1;
-  Body plate{.name = "plate", .shape = Box(Vec3(0.3, 0.3, 0.02)), .pose = Pose(Vec3(0, 0, -0.02))};
-  plate.drive = SteadyMotion{.velocity = Vec3(0.2, 0, 0)};
-  scene.bodies = {ground(), plate, standing_can()};
-  scene.bodies[0].pose = Pose(Vec3(0, 0, -1));
-  // The can slides until friction, 4.9 m/s², has given it the plate's speed: 4 mm less.
-  EXPECT_NEAR(end_in(GetParam(), scene).x(), 0.2, 0.008);
-}
-
-TEST_P(InEngine, ADrivenBodyFollowsItsDriveWhateverItMeets) {
-  Scene scene;
-  scene.duration = 0.5;
-  Body ram{.name = "ram", .shape = Box(Vec3(0.02, 0.1, 0.1)), .pose = Pose(Vec3(-0.1, 0, 0.12))};
-  ram.drive = SteadyMotion{.velocity = Vec3(0.4, 0, 0)};
-  scene.bodies = {ground(), standing_can(), ram};
-  EXPECT_NEAR(end_in(GetParam(), scene).x(), 0.1, 1e-6);
-}
-
-TEST_P(InEngine, APushActsForItsTime) {
-  Scene scene;
-  scene.duration = 0.5;
-  scene.gravity = Vec3::Zero();
-  scene.bodies = {standing_can()};
-  scene.pushes = {{.body = 0, .force = Vec3(2, 0, 0), .from = 0.1, .until = 0.2}};
-  const double mass = inertia(can, 1000).mass;
-  // Δv = F Δt / m; on the way for 0.35 s after the middle of the push.
-  EXPECT_NEAR(end_in(GetParam(), scene).x(), 2 * 0.1 / mass * 0.35, 0.02 * 2 * 0.1 / mass);
-}
+INSTANTIATE_TEST_SUITE_P(Each, InEngine, testing::ValuesIn(all_engines()), EachWorld::plain_name);
 
 TEST_P(InEngine, WhatStandsForACanHoldsItAtItsOwnHeight) {
   Scene scene;
   scene.duration = 0.4;
   scene.bodies = {ground(), standing_can()};
   const auto height = [&](const EngineShape& shape) {
-    return end_in(GetParam(), scene, {.shapes = {{}, shape}}).z();
+    const Simulator simulator = in_engine(GetParam(), {.shapes = {{}, shape}});
+    return states_of(scene, simulator).back()[1].pose.position().z();
   };
   constexpr double near = 0.002;  // what soft contacts yield, and margins round
   for (const EngineShape shape : {EngineShape{}, {Kind::exact}, {Kind::box}, {Kind::capsule}}) {
