@@ -267,7 +267,8 @@ void expect_exact(const Configuration& c, const Name& name) {
 }
 
 // Of ten million configurations (touchstone campaign --candidates reference --count 42373) those
-// with the largest errors, relative to the smaller size: all of extreme aspect.
+// with the largest errors, relative to the smaller size: all of extreme aspect. The last are coins
+// deep in each other, of which the search of rims once stopped too early.
 TEST(AccuracyOfTheWorst, IsWithinRoundingOfTheLargerSize) {
   for (const char* id :
        {"cylinder-sphere/aspect-needle-deep/1/18013", "cylinder-sphere/aspect-needle-deep/1/7553",
@@ -279,7 +280,8 @@ TEST(AccuracyOfTheWorst, IsWithinRoundingOfTheLargerSize) {
         "cylinder-capsule/aspect-coin/1/24641",       "cylinder-box/aspect-coin/1/9003",
         "cylinder-box/aspect-needle/1/33844",         "cylinder-plane/aspect-needle-deep/1/19335",
         "cylinder-plane/aspect-needle-deep/1/1848",   "cylinder-box/aspect-coin/1/27023",
-        "cylinder-plane/aspect-needle/1/4270",        "cylinder-plane/aspect-coin/1/21195"}) {
+        "cylinder-plane/aspect-needle/1/4270",        "cylinder-plane/aspect-coin/1/21195",
+        "cylinder-cylinder/hostile/3/31965"}) {
     expect_exact(make_configuration(parse_identity(id)), id);
   }
 }
@@ -380,52 +382,6 @@ TEST(CylinderCylinder, RimsThatFaceEachOtherOnNearlyPerpendicularAxesAreExact) {
     const Configuration c{a, Pose(rim_b - rim_a + apart, {1, 1 + tilt, 0, 0}), b, Pose()};
     expect_exact(c, i);
   }
-}
-
-/// Two coins whose axes are all but perpendicular, one nearly its radius deep in the other, so that
-/// the rims meet along a normal next to an axis: there one rim turns back close to the other's axis
-/// (proofs.md, "The search of rims"). Aspects are 1:10^4 to 1:10^8, angles 1e-8 to 1e-4.
-Configuration deep_coins(std::uint64_t index) {
-  Random random(index);
-  const auto uniform = [&](double lo, double hi) { return random.uniform(lo, hi); };
-  const auto power_of_ten = [&](double lo, double hi) { return random.power_of_ten(lo, hi); };
-  const double r1 = uniform(0.2, 1), r2 = random.toss() ? r1 : uniform(0.2, 1);
-  const double h1 = r1 * power_of_ten(-8, -4), h2 = r2 * power_of_ten(-8, -4);
-  const double c = random.toss() ? 0 : power_of_ten(-17, -6);
-  const double from_axis = power_of_ten(-8, -4), about = power_of_ten(-7, -2);
-  const Vec3 u1(1, 0, 0), u2(c, std::sqrt((1 - c) * (1 + c)), 0);
-  const Vec3 n(std::cos(from_axis), std::sin(from_axis) * std::sin(about),
-               std::sin(from_axis) * std::cos(about));
-  const Vec3 across1 = n - n.dot(u1) * u1, across2 = n - n.dot(u2) * u2;
-  const double depth = r2 * across2.norm() * (1 - power_of_ten(-7, -2));
-  const Vec3 rims = r1 * across1.normalized() + r2 * across2.normalized() - depth * n;
-  const Vec3 d = rims + std::copysign(h1, n.dot(u1)) * u1 + std::copysign(h2, n.dot(u2)) * u2;
-  const auto along = [](const Vec3& axis) { return turn_between(Vec3::UnitZ(), axis); };
-  const Eigen::Quaterniond turn = random.turn();
-  return {Cylinder(r1, h1), Pose(turn * d, turn * along(u1)), Cylinder(r2, h2),
-          Pose(Vec3::Zero(), turn * along(u2))};
-}
-
-// The search of rims stopped before it had found the best normal of one in two hundred of them, up
-// to 8e-7 of the size off, and proved half.
-TEST(CylinderCylinder, DeepCoinsOnNearlyPerpendicularAxesAreExactAndProven) {
-  const char* known = "cylinder-cylinder/hostile/3/31965";
-  expect_exact(make_configuration(parse_identity(known)), known);
-  const std::uint64_t count = count_per_class();
-  std::uint64_t proven = 0;
-  for (std::uint64_t i = 0; i < count; ++i) {
-    const Configuration c = deep_coins(i);
-    const oracle::Truth truth = oracle::truth(c);
-    const double size = larger_size(c), sigma = truth.signed_distance.midpoint();
-    const SignedDistance answer = signed_distance(c);
-    EXPECT_LE(std::abs(answer.value - sigma), 1e-13 * size) << i;
-    EXPECT_LE(oracle::normal_regret(c, truth, answer.normal), 1e-13 * size) << i;
-    const CertifiedDistance certified = certified_distance(c);
-    EXPECT_LE(std::abs(certified.value - sigma), certified.error_bound) << i;
-    EXPECT_LE(std::abs(certified.value - sigma), 1e-13 * size) << i;
-    proven += certified.error_bound <= 1e-13 * size;
-  }
-  EXPECT_GE(proven, count - count / 100);
 }
 
 INSTANTIATE_TEST_SUITE_P(, Accuracy, testing::ValuesIn(all_pairs), name_of_other);

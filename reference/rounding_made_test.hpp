@@ -76,6 +76,28 @@ class RoundingMade : private Random {
     return turned(needle, d, across_by(power_of_ten(-10, -7)), disc);
   }
 
+  /// Two coins whose axes are all but perpendicular, one nearly its radius deep in the other, so
+  /// that the rims meet along a normal next to an axis: there one rim turns back close to the
+  /// other's axis (proofs.md, "The search of rims"). Aspects are 1:10^4 to 1:10^8, angles 1e-8 to
+  /// 1e-4.
+  Configuration deep_coins() {
+    const double r1 = uniform(0.2, 1), r2 = toss() ? r1 : uniform(0.2, 1);
+    const double h1 = r1 * power_of_ten(-8, -4), h2 = r2 * power_of_ten(-8, -4);
+    const double c = toss() ? 0 : power_of_ten(-17, -6);
+    const double from_axis = power_of_ten(-8, -4), about = power_of_ten(-7, -2);
+    const Vec3 u1(1, 0, 0), u2(c, std::sqrt((1 - c) * (1 + c)), 0);
+    const Vec3 n(std::cos(from_axis), std::sin(from_axis) * std::sin(about),
+                 std::sin(from_axis) * std::cos(about));
+    const Vec3 across1 = n - n.dot(u1) * u1, across2 = n - n.dot(u2) * u2;
+    const double depth = r2 * across2.norm() * (1 - power_of_ten(-7, -2));
+    const Vec3 rims = r1 * across1.normalized() + r2 * across2.normalized() - depth * n;
+    const Vec3 d = rims + std::copysign(h1, n.dot(u1)) * u1 + std::copysign(h2, n.dot(u2)) * u2;
+    const auto along = [](const Vec3& axis) { return turn_between(Vec3::UnitZ(), axis); };
+    const Quaternion frame = turn();
+    return {Cylinder(r1, h1), Pose(frame * d, frame * along(u1)), Cylinder(r2, h2),
+            Pose(Vec3::Zero(), frame * along(u2))};
+  }
+
  private:
   using Quaternion = Eigen::Quaterniond;
 
