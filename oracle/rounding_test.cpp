@@ -120,19 +120,17 @@ TEST(Decimal, RoundsOutward) {
 }
 
 TEST(Decimal, IsExactWhereDigitsSuffice) {
-  for (const char* text : {"0", "1", "-2.5", "1024", "0.0078125", "-1.25e-9", "1.5e20"}) {
-    const std::string value = text;
-    mpq_class exact;
-    if (value == "0") exact = 0;
-    if (value == "1") exact = 1;
-    if (value == "-2.5") exact = mpq_class(-5, 2);
-    if (value == "1024") exact = 1024;
-    if (value == "0.0078125") exact = mpq_class(1, 128);
-    if (value == "-1.25e-9") exact = mpq_class("-125/100000000000");
-    if (value == "1.5e20") exact = mpq_class("150000000000000000000");
-    exact.canonicalize();
-    EXPECT_EQ(decimal_below(exact, 12), value);
-    EXPECT_EQ(decimal_above(exact, 12), value);
+  const std::pair<const char*, mpq_class> numbers[] = {
+      {"0", 0},
+      {"1", 1},
+      {"-2.5", {-5, 2}},
+      {"1024", 1024},
+      {"0.0078125", {1, 128}},
+      {"-1.25e-9", mpq_class("-1/800000000")},
+      {"1.5e20", mpq_class("150000000000000000000")}};
+  for (const auto& [text, exact] : numbers) {
+    EXPECT_EQ(decimal_below(exact, 12), text);
+    EXPECT_EQ(decimal_above(exact, 12), text);
   }
 }
 

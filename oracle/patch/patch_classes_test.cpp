@@ -1,51 +1,15 @@
-// The oracle against brute force on every pair and pose class, and properties of the contact patch
-// at every optimal normal that it finds.
-//
-// TOUCHSTONE_COUNT sets how many configurations of each class brute force is tried on (10 by
-// default, for CI).
-#include <algorithm>
+// Properties of the contact patch on every pair and pose class, at every optimal normal.
 #include <cmath>
-#include <cstdlib>
 #include <gtest/gtest.h>
 #include <string>
 
-#include "oracle/brute_force.hpp"
 #include "oracle/patch/contact_patch.hpp"
 #include "oracle/truth.hpp"
 #include "properties/identity.hpp"
+#include "properties/moves.hpp"
 
 namespace touchstone::oracle {
 namespace {
-
-std::uint64_t count_per_class() {
-  const char* text = std::getenv("TOUCHSTONE_COUNT");
-  return text ? std::strtoull(text, nullptr, 10) : 3;
-}
-
-class PoseClasses : public testing::TestWithParam<Pair> {};
-
-TEST_P(PoseClasses, NoDirectionBeatsTheOracle) {
-  for (const auto& name : pose_classes(GetParam())) {
-    for (std::uint64_t i = 0; i < count_per_class(); ++i) {
-      const Identity id{GetParam(), name, 20261121, i};
-      SCOPED_TRACE(to_string(id));
-      const Configuration c = make_configuration(id);
-      const Truth t = truth(c);
-      if (GetParam() == Pair::plane) {
-        EXPECT_LE(t.signed_distance.width(), 1e-15 * larger_size(c));
-        const double rounding =
-            1e-14 * (larger_size(c) + c.pose_a.position().norm() + c.pose_b.position().norm());
-        EXPECT_NEAR(lowest_point_over_plane(c), t.signed_distance.midpoint(), rounding);
-      } else {
-        expect_brute_force_agrees(c, t, 400);
-      }
-    }
-  }
-}
-
-INSTANTIATE_TEST_SUITE_P(, PoseClasses, testing::ValuesIn(all_pairs), [](const auto& pair) {
-  return std::string(pair_name(pair.param)).substr(std::string("cylinder-").size());
-});
 
 constexpr std::uint64_t patches_per_class = 1;
 
@@ -100,23 +64,12 @@ TEST_P(PatchClasses, TheExactPatchLiesWithinThatOfEveryEpsilon) {
   });
 }
 
-TEST_P(PatchClasses, LiesHalfwayBetweenTheSupportPlanes) {
-  for_all_normals(GetParam(), [](const Configuration& c, const OptimalNormal& n, double sigma) {
-    const ContactPatch patch = contact_patch(c, n);
-    // Half of the distance above B's highest point, which for a sphere needs none of our code.
-    const auto* sphere = std::get_if<Sphere>(&c.b);
-    if (!sphere) return;
-    const double above = (patch.centroid() - c.pose_b.position()).dot(n.n) - sphere->radius();
-    EXPECT_NEAR(above, sigma / 2, 1e-14 * lengths(c));
+// Half of the distance above B's highest point, which for a sphere needs none of our code.
+TEST(PatchOfASphere, LiesHalfwayBetweenTheSupportPlanes) {
+  for_all_normals(Pair::sphere, [](const Configuration& c, const OptimalNormal& n, double sigma) {
+    const Vec3 from_b = contact_patch(c, n).centroid() - c.pose_b.position();
+    EXPECT_NEAR(from_b.dot(n.n) - std::get<Sphere>(c.b).radius(), sigma / 2, 1e-14 * lengths(c));
   });
-}
-
-// Laws.
-
-Configuration turned_by(const Eigen::Quaterniond& q, const Configuration& c) {
-  const Eigen::Matrix3d rotation = q.toRotationMatrix();
-  return {c.a, Pose(rotation * c.pose_a.position(), q * c.pose_a.orientation()), c.b,
-          Pose(rotation * c.pose_b.position(), q * c.pose_b.orientation())};
 }
 
 TEST_P(PatchClasses, TurnsWithTheWorld) {
@@ -125,7 +78,7 @@ TEST_P(PatchClasses, TurnsWithTheWorld) {
   const Eigen::Matrix3d rotation = q.toRotationMatrix();
   for_all_normals(GetParam(), [&](const Configuration& c, const OptimalNormal& n, double) {
     // The orientations' product is rounded, which changes tilts of 1e-15.
-    const Configuration turned = turned_by(q, c);
+    const Configuration turned = rotated(c, q);
     OptimalNormal turned_normal = n;
     turned_normal.n = rotation * n.n;
     const ContactPatch patch = contact_patch(c, n), again = contact_patch(turned, turned_normal);
@@ -137,27 +90,12 @@ TEST_P(PatchClasses, TurnsWithTheWorld) {
   });
 }
 
-Shape scaled(const Shape& shape, double s) {
-  if (const auto* x = std::get_if<Cylinder>(&shape)) {
-    return Cylinder(s * x->radius(), s * x->half_length());
-  }
-  if (const auto* x = std::get_if<Capsule>(&shape)) {
-    return Capsule(s * x->radius(), s * x->half_length());
-  }
-  if (const auto* x = std::get_if<Sphere>(&shape)) return Sphere(s * x->radius());
-  if (const auto* x = std::get_if<Plane>(&shape)) return Plane(x->normal(), s * x->displacement());
-  return Box(s * std::get<Box>(shape).half_extents());
-}
-
 TEST_P(PatchClasses, ScalesWithTheUnitOfLength) {
   for_all_normals(GetParam(), [](const Configuration& c, const OptimalNormal& n, double) {
     const ContactPatch patch = contact_patch(c, n);
     for (const double s : {0x1p-20, 0x1p20}) {
-      const Configuration d{Cylinder(s * c.a.radius(), s * c.a.half_length()),
-                            Pose(s * c.pose_a.position(), c.pose_a.orientation()), scaled(c.b, s),
-                            Pose(s * c.pose_b.position(), c.pose_b.orientation())};
       // A power of two changes no digit.
-      const ContactPatch again = contact_patch(d, n);
+      const ContactPatch again = contact_patch(scaled(c, s), n);
       EXPECT_EQ(again.kind(), patch.kind());
       EXPECT_EQ(again.area(), s * s * patch.area());
       EXPECT_EQ(again.perimeter(), s * patch.perimeter());
