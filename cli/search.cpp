@@ -1,8 +1,5 @@
 #include "reports/search.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <fmt/format.h>
 #include <memory>
 #include <string>
 #include <vector>
@@ -16,8 +13,6 @@
 #include "properties/laws/failure_file.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/check_output.hpp"
-#include "reports/replay.hpp"
-#include "reports/terminal.hpp"
 
 namespace touchstone {
 namespace {
@@ -50,46 +45,6 @@ struct SearchArguments {
   }
 };
 
-std::string value_text(double value) {
-  return std::isinf(value) ? "no answer" : fmt::format("{:.1e}", value);
-}
-
-std::string goals_table(const std::vector<GoalResult>& goals, const Terminal& terminal) {
-  constexpr std::size_t name_width = 26, numbers_width = 36;
-  const TextTable table("pair and goal", std::min(name_width, terminal.columns - numbers_width),
-                        {{"found", 9, 0}, {"sampled", 9, 1}, {"broken", 8, 0}, {"climbs", 8, 2}},
-                        terminal);
-  std::string text = table.headings();
-  for (const GoalResult& r : goals) {
-    if (!r.summit) continue;
-    text += table.row(fmt::format("{} {}", pair_name(r.pair), goal_name(r.goal)),
-                      {{value_text(r.summit->value)},
-                       {value_text(r.summit->sampled)},
-                       {fmt::format("{}", r.broken), r.broken > 0},
-                       {fmt::format("{}", r.climbs)}});
-  }
-  Legend legend(table, terminal);
-  return text + '\n' +
-         legend
-             .of("found",
-                 "the largest, relative to the smaller size; of time, to the median of "
-                 "what is sampled")
-             .of("sampled", "the largest of the starts, which are drawn and not changed")
-             .of("broken", "climbs that end where a law is broken")
-             .text();
-}
-
-/// How to see the slowest configurations again; those of other goals that matter are failures.
-std::string slowest_text(const std::vector<GoalResult>& goals, const std::string& candidate) {
-  std::string text;
-  for (const GoalResult& r : goals) {
-    if (r.goal != Goal::time || !r.summit) continue;
-    text += fmt::format("\n{}, slowest:\n  {}\n", pair_name(r.pair),
-                        replay_command(r.summit->configuration, {candidate}));
-  }
-  return text;
-}
-
 int run_search(const SearchArguments& options) {
   if (!options.save.empty()) check_writable(options.save, "--save");
   const Search wanted = options.search();
@@ -106,10 +61,6 @@ int run_search(const SearchArguments& options) {
     throw InvalidInput("--candidate", candidate.name,
                        "must have a routine for a pair that is asked");
   }
-  const Terminal terminal = standard_output();
-  std::string text = goals_table(result.goals, terminal);
-  for (const Failure& f : result.failures) text += '\n' + failure_text(f, terminal);
-  text += slowest_text(result.goals, candidate.name);
   std::string saved;
   const auto write = [&] {
     if (options.save.empty()) return;
@@ -117,7 +68,8 @@ int run_search(const SearchArguments& options) {
       saved += "saved " + save(f, options.save).string() + '\n';
     }
   };
-  write_then_print(write, options.json ? to_json(result).dump(1) + '\n' : text);
+  write_then_print(write, options.json ? to_json(result).dump(1) + '\n'
+                                       : search_text(result, candidate.name, standard_output()));
   if (!options.json) print(saved);
   return result.failures.empty() ? 0 : something_failed;
 }

@@ -268,4 +268,55 @@ json check_json(const CheckResult& result, const CheckOptions& options) {
           {"corpus", saved}};
 }
 
+namespace {
+
+std::string summit_text(double value) {
+  return std::isinf(value) ? "no answer" : fmt::format("{:.1e}", value);
+}
+
+std::string goals_table(const std::vector<GoalResult>& goals, const Terminal& terminal) {
+  constexpr std::size_t name_width = 26, numbers_width = 36;
+  const TextTable table("pair and goal", std::min(name_width, terminal.columns - numbers_width),
+                        {{"found", 9, 0}, {"sampled", 9, 1}, {"broken", 8, 0}, {"climbs", 8, 2}},
+                        terminal);
+  std::string text = table.headings();
+  for (const GoalResult& r : goals) {
+    if (!r.summit) continue;
+    text += table.row(fmt::format("{} {}", pair_name(r.pair), goal_name(r.goal)),
+                      {{summit_text(r.summit->value)},
+                       {summit_text(r.summit->sampled)},
+                       {fmt::format("{}", r.broken), r.broken > 0},
+                       {fmt::format("{}", r.climbs)}});
+  }
+  Legend legend(table, terminal);
+  return text + '\n' +
+         legend
+             .of("found",
+                 "the largest, relative to the smaller size; of time, to the median of "
+                 "what is sampled")
+             .of("sampled", "the largest of the starts, which are drawn and not changed")
+             .of("broken", "climbs that end where a law is broken")
+             .text();
+}
+
+/// How to see the slowest configurations again; those of other goals that matter are failures.
+std::string slowest_text(const std::vector<GoalResult>& goals, const std::string& candidate) {
+  std::string text;
+  for (const GoalResult& r : goals) {
+    if (r.goal != Goal::time || !r.summit) continue;
+    text += fmt::format("\n{}, slowest:\n  {}\n", pair_name(r.pair),
+                        replay_command(r.summit->configuration, {candidate}));
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string search_text(const SearchResult& result, const std::string& candidate,
+                        const Terminal& terminal) {
+  std::string text = goals_table(result.goals, terminal);
+  for (const Failure& f : result.failures) text += '\n' + failure_text(f, terminal);
+  return text + slowest_text(result.goals, candidate);
+}
+
 }  // namespace touchstone

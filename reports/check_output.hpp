@@ -7,6 +7,7 @@
 
 #include "properties/laws/check.hpp"
 #include "properties/laws/failure_file.hpp"
+#include "reports/search.hpp"
 #include "reports/terminal.hpp"
 
 namespace touchstone {
@@ -38,5 +39,10 @@ nlohmann::json check_json(const CheckResult& result, const CheckOptions& options
 /// per saved failure. What is known is skipped and says so, as pytest writes failures that are
 /// expected, for JUnit has no word of its own.
 std::string junit_xml(const CheckResult& result);
+
+/// What a search found: a line for each pair and goal, its failures, and the commands that show the
+/// slowest configurations again; those of other goals that matter are failures.
+std::string search_text(const SearchResult& result, const std::string& candidate,
+                        const Terminal& terminal);
 
 }  // namespace touchstone
