@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <tuple>
 
 #include <nlohmann/json.hpp>
 
@@ -21,9 +20,8 @@ namespace {
 
 using nlohmann::json;
 using testing::HasSubstr;
-using testing::Not;
 
-/// A can that stands, a little askew, and a ball far from it on the same ground.
+/// A can that stands, a little askew.
 SceneFile standing_can(const json& need) {
   json scene = json::parse(R"({
     "duration": 0.8,
@@ -39,8 +37,12 @@ const json stands = {{"need", "stands"}, {"body", "can"}, {"degrees", 2}};
 const json stays = {
     {"need", "stays-in"}, {"body", "can"}, {"lower", {-9, -9, 0}}, {"upper", {9, 9, 1}}};
 
+/// As many as tell what breaks in a single one, and what holds.
+constexpr Trials few{.disturbances = 2};
+
 Choice chosen(const SceneFile& file, unsigned workers = 1) {
-  return choose(file, {find_candidates({"capsule", "capsule-circumscribed", "prism:64"}), workers});
+  return choose(
+      file, {find_candidates({"capsule", "capsule-circumscribed", "prism:64"}), workers, {}, few});
 }
 
 const SceneRun& run_of(const Choice& choice, const std::string& name) {
@@ -48,98 +50,6 @@ const SceneRun& run_of(const Choice& choice, const std::string& name) {
     if (run.name == name) return run;
   }
   throw std::runtime_error("no run " + name);
-}
-
-/// Two cans on the same ground, of different sizes and so of different kinds of pairs, for some
-/// steps.
-Scene two_cans(int steps, double depth) {
-  Scene scene;
-  scene.duration = steps * scene.step;
-  const auto at = [&](double x) { return Pose(Vec3(x, 0, 0.3 - depth)); };
-  scene.bodies = {{"ground", Plane(Vec3::UnitZ(), 0), 1000, {}, {}, {}, {}, true},
-                  {"left", Cylinder(0.2, 0.3), 1000, {}, at(-1)},
-                  {"right", Cylinder(0.3, 0.3), 1000, {}, at(1)}};
-  return scene;
-}
-
-TEST(RunWith, AsksTheCandidateOfEachKindOfPairs) {
-  const Scene scene = two_cans(2, 5e-5);
-  const Candidate &exact = find_candidate("reference"), &capsule = find_candidate("capsule");
-  Processes processes({});
-  CandidateModel model(processes.of(exact));
-  const PairKinds kinds(scene, run_scene(scene, model));
-  ASSERT_EQ(kinds.all().size(), 2U);
-  const Trajectory run =
-      run_with(DisturbedScene(scene, 1, 0), kinds, {nullptr, &capsule}, exact, processes);
-  ASSERT_GE(run.answers.size(), 2U);
-  EXPECT_EQ(run.answers[0].points, 3);  // a cap
-  EXPECT_EQ(run.answers[1].points, 1);  // a round end
-}
-
-TEST(RunScene, CountsThePointsOfAllPairsThatTheSolverGets) {
-  Scene scene = two_cans(1, 5e-5);
-  Body brick{"brick", Box(Vec3(0.1, 0.2, 0.3))};
-  brick.pose = Pose(Vec3(5, 0, 0.3 - 5e-5));
-  scene.bodies.push_back(brick);
-  Processes processes({});
-  CandidateModel model(processes.of(find_candidate("reference")));
-  EXPECT_EQ(run_scene(scene, model).points, 3 + 3 + 4);
-}
-
-TEST(RunScene, RefusesACandidateWithoutARoutineForAPairThatComesUp) {
-  const Scene scene = two_cans(1, 5e-5);
-  const Candidate& none = find_candidate("libccd-gjk");  // no half-space
-  Processes processes({});
-  CandidateModel model(processes.of(none), Unsupported::refused);
-  try {
-    run_scene(scene, model);
-    FAIL() << "the cans fall through the ground";
-  } catch (const InvalidInput& e) {
-    EXPECT_EQ(e.value(), "\"libccd-gjk\"");
-    EXPECT_THAT(e.remedy(), HasSubstr("cylinder-plane"));
-  }
-}
-
-/// A model that dies with every question.
-class Deadly : public ContactModel {
- public:
-  void begin() override {}
-  std::vector<Answer> answers(std::span<const PairQuestion> questions) override {
-    Answer crashed{};
-    crashed.status = TS_CRASHED;
-    return std::vector<Answer>(questions.size(), crashed);
-  }
-};
-
-TEST(MotionTable, SaysHowManyQuestionsHadNoAnswer) {
-  const Scene scene = two_cans(2, 5e-5);
-  Deadly deadly;
-  EXPECT_THAT(motion_table(scene, run_scene(scene, deadly)),
-              HasSubstr("4 of 4 questions had no answer"));
-  Processes processes({});
-  CandidateModel exact(processes.of(find_candidate("reference")));
-  EXPECT_THAT(motion_table(scene, run_scene(scene, exact)), Not(HasSubstr("no answer")));
-}
-
-// The kinds are those of the scene as it is written, whatever the order of the disturbed bodies.
-TEST(RunWith, AsksTheCandidateOfEachKindInEveryOrderOfTheBodies) {
-  const Scene scene = two_cans(1, 5e-4);
-  const Candidate &exact = find_candidate("reference"), &capsule = find_candidate("capsule");
-  Processes processes({});
-  CandidateModel model(processes.of(exact));
-  const PairKinds kinds(scene, run_scene(scene, model));
-  std::set<std::vector<int>> orders;
-  for (std::size_t d = 1; d <= 20; ++d) {
-    const DisturbedScene disturbed(scene, 1, d);
-    orders.insert(disturbed.origin);
-    const Trajectory run = run_with(disturbed, kinds, {nullptr, &capsule}, exact, processes);
-    ASSERT_GE(run.answers.size(), 2U);
-    for (const JudgedAnswer& answer : run.answers) {
-      const std::string& name = disturbed.scene.bodies[answer.a].name;
-      EXPECT_EQ(answer.points == 1, name == "right") << name << ", disturbance " << d;
-    }
-  }
-  EXPECT_EQ(orders.size(), 6U);
 }
 
 TEST(Choose, CapsulesCannotStand) {
@@ -229,7 +139,7 @@ TEST(Choose, ACapsuleThatBalancesOnItsPoleDoesNotStand) {
        {std::vector{Vec3(0, 0, 0)},
         std::vector{Vec3(0.2, 0, 0), Vec3(-0.2, 0, 0), Vec3(0, 0.2, 0), Vec3(0, -0.2, 0)}}) {
     const SceneFile file = cans_on_pedestals(places);
-    ChooseOptions options{find_candidates({"capsule"}), 2};
+    ChooseOptions options{find_candidates({"capsule"}), 2, {}, {.disturbances = 8}};
     const Choice disturbed = choose(file, options);
     options.trials.disturbances = 0;
     const Choice as_written = choose(file, options);
@@ -240,7 +150,7 @@ TEST(Choose, ACapsuleThatBalancesOnItsPoleDoesNotStand) {
     EXPECT_FALSE(capsule.holds());
     EXPECT_GT(capsule.disturbance, 0U);
     EXPECT_LT(capsule.held, capsule.trials);
-    EXPECT_LT(capsule.trials, 17U);  // it ended early
+    EXPECT_LT(capsule.trials, 9U);  // it ended early
     ASSERT_TRUE(capsule.evidence);
     EXPECT_EQ(capsule.evidence->candidate, "capsule");
     EXPECT_FALSE(disturbed.impossible);
@@ -262,8 +172,8 @@ std::string model_of(const Choice& choice, const std::string& bodies) {
 // A can that is pushed along a shelf falls over if its end is round, whatever its side is.
 TEST(Choose, ACanThatIsPushedAlongAShelfNeedsItsFlatEnd) {
   const SceneFile file = read_scene(TOUCHSTONE_SCENES "/shelf-push.json");
-  const Choice choice =
-      choose(file, {find_candidates({"capsule", "capsule-circumscribed", "spheres:1"}), 2});
+  const Choice choice = choose(
+      file, {find_candidates({"capsule", "capsule-circumscribed", "spheres:1"}), 2, {}, few});
   EXPECT_FALSE(choice.impossible);
   EXPECT_EQ(model_of(choice, "shelf"), "reference");
   for (const char* name : {"capsule", "capsule-circumscribed", "spheres:1"}) {
@@ -274,9 +184,9 @@ TEST(Choose, ACanThatIsPushedAlongAShelfNeedsItsFlatEnd) {
 
 TEST(Choose, TheAnswerDoesNotDependOnTheSeed) {
   const SceneFile file = cans_on_pedestals({Vec3(0, 0, 0)});
-  ChooseOptions options{find_candidates({"capsule"}), 2};
-  options.trials.disturbances = 8;  // and forty of the answer
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+  // Of few disturbances, each of which has to throw the capsule over.
+  ChooseOptions options{find_candidates({"capsule"}), 2, {}, few};
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     options.trials.seed = seed;
     const Choice choice = choose(file, options);
     EXPECT_FALSE(choice.impossible) << seed;
@@ -313,7 +223,7 @@ TEST(Choose, SavesOfAStepWhatItsContactsAndItsSolverTakeLess) {
 TEST(Choose, TakesADearerQueryThatSparesTheSolverMore) {
   SceneFile file = read_scene(TOUCHSTONE_SCENES "/rod-on-table.json");
   file.needs.pop_back();
-  const Choice choice = choose(file, {find_candidates({"capsule", "spheres:16"}), 2});
+  const Choice choice = choose(file, {find_candidates({"capsule", "spheres:16"}), 2, {}, few});
   const Candidate &exact = find_candidate("reference"), &capsule = find_candidate("capsule");
   ASSERT_EQ(choice.runs[choice.answer].models, std::vector{&capsule});
   EXPECT_GT(choice.nanoseconds(0, capsule), choice.nanoseconds(0, exact));
@@ -352,7 +262,7 @@ TEST(Choose, TimesWhatItComparesTogether) {
 TEST(Choose, SaysHowFarARunStraysFromTheExactOne) {
   SceneFile file = read_scene(TOUCHSTONE_SCENES "/stack-of-cans.json");
   file.needs.pop_back();
-  const Choice choice = choose(file, {find_candidates({"box-capsules:2"}), 2});
+  const Choice choice = choose(file, {find_candidates({"box-capsules:2"}), 2, {}, few});
   EXPECT_EQ(choice.runs[0].straying.distance, 0);
   EXPECT_LT(choice.runs[0].straying.overlap, 5e-4);
   const SceneRun& through = run_of(choice, "box-capsules:2");
@@ -374,8 +284,7 @@ TEST(Choose, SaysHowFarTheWorstOfARunsTrialsStrays) {
        "pose": {"position": [0, 0, 0.06]}}],
     "needs": [{"need": "penetration", "metres": 1}]})",
                                          "can.json");
-  const Choice choice =
-      choose(file, {find_candidates({"capsule"}), 1, {}, {.disturbances = 2, .seed = 1}});
+  const Choice choice = choose(file, {find_candidates({"capsule"}), 1, {}, few});
   const SceneRun& on_pole = run_of(choice, "capsule");
   ASSERT_GT(on_pole.trials, 1U);
   EXPECT_GT(on_pole.straying.tilt, 60);
@@ -389,31 +298,12 @@ TEST(Choose, SaysHowFarTheWorstOfARunsTrialsStrays) {
   EXPECT_LT(choice.exact_spread.tilt, 0.2);
 }
 
-TEST(LeastStepSeconds, AreThoseOfEachStepInAllRounds) {
-  std::vector<std::size_t> order;
-  const auto least = least_step_seconds(2, [&](std::size_t run) {
-    order.push_back(run);
-    const auto made = static_cast<double>(order.size());
-    return run == 0 ? std::vector{made, 20 - made} : std::vector{5.0};
-  });
-  EXPECT_THAT(order, testing::ElementsAre(0, 1, 1, 0, 0, 1, 1, 0, 0, 1));
-  EXPECT_THAT(least, testing::ElementsAre(std::vector{1.0, 11.0}, std::vector{5.0}));
-
-  order.clear();
-  const auto note = [&](std::size_t run) {
-    order.push_back(run);
-    return std::vector{1.0};
-  };
-  least_step_seconds(3, note, 2);
-  EXPECT_THAT(order, testing::ElementsAre(0, 1, 2, 1, 2, 0));
-}
-
 // An ending that is compared with the exact run is compared with the same disturbance of it.
 TEST(Choose, ExactContactsAreAlwaysWhereTheyEndThemselves) {
   json need = {{"need", "ends-near"}, {"body", "can"}, {"metres", 1e-9}};
   const Choice choice = chosen(standing_can(need), 2);
   EXPECT_FALSE(choice.impossible);
-  EXPECT_GE(choice.runs[0].held, 17U);
+  EXPECT_EQ(choice.runs[0].held, 1 + few.of_answer());
 }
 
 // Exact contacts are held to as many disturbances as any answer: a can must not start further from
@@ -421,9 +311,8 @@ TEST(Choose, ExactContactsAreAlwaysWhereTheyEndThemselves) {
 TEST(Choose, ExactContactsThatFailUnderAFurtherDisturbanceDoNotServe) {
   SceneFile file = standing_can(stands);
   file.scene.duration = 0.02;
-  ChooseOptions options{{}, 2};  // the exact one alone
-  options.trials.disturbances = 2;
-  std::vector<double> distances;  // by disturbance, the largest of the run
+  const ChooseOptions options{{}, 2, {}, few};  // the exact one alone
+  std::vector<double> distances;                // by disturbance, the largest of the run
   Processes processes({});
   CandidateModel exact(processes.of(find_candidate("reference")));
   const Vec3 place = file.scene.bodies[1].pose.position();
@@ -498,7 +387,7 @@ TEST(Choose, AModelsBytesAreThoseOfAllItsParts) {
 // What is printed to make a run again makes it again, to the last bit of what broke.
 TEST(Choose, ARunIsMadeAgainByTheNamesOfItsContacts) {
   const SceneFile file = cans_on_pedestals({Vec3(0, 0, 0), Vec3(0.5, 0, 0)});
-  const Choice choice = choose(file, {find_candidates({"capsule", "spheres:2"}), 2});
+  const Choice choice = choose(file, {find_candidates({"capsule", "spheres:2"}), 2, {}, few});
   Processes processes({});
   int broken = 0;
   for (const SceneRun& run : choice.runs) {
@@ -515,26 +404,6 @@ TEST(Choose, ARunIsMadeAgainByTheNamesOfItsContacts) {
     }
   }
   EXPECT_GT(broken, 0);
-}
-
-TEST(NamedContacts, AreOfAllPairsOrOfKindsOfThem) {
-  const Scene scene = two_cans(1, 5e-5);
-  const Candidate& capsule = find_candidate("capsule");
-  EXPECT_EQ(read_contacts({"capsule"}, scene).for_all, &capsule);
-  const NamedContacts one = read_contacts({"cylinder ⌀0.4×0.6 on plane=capsule"}, scene);
-  EXPECT_EQ(one.for_all, nullptr);
-  Processes processes({});
-  const Trajectory run =
-      run_with(DisturbedScene(scene, 1, 0), one, find_candidate("reference"), processes);
-  ASSERT_GE(run.answers.size(), 2U);
-  EXPECT_EQ(run.answers[0].points, 1);  // a round end
-  EXPECT_EQ(run.answers[1].points, 3);  // a cap
-  for (const std::vector<std::string>& wrong : {std::vector<std::string>{"bulet"},
-                                                {"capsule", "prism:8"},
-                                                {"cylinder on plane=capsule"},
-                                                {"cylinder ⌀0.4×0.6 on plane=bulet"}}) {
-    EXPECT_THROW(read_contacts(wrong, scene), InvalidInput) << wrong[0];
-  }
 }
 
 TEST(Choose, SaysWhenExactContactsDoNotServe) {

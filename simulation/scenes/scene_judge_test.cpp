@@ -1,0 +1,131 @@
+// Runs of a scene with a candidate for each kind of pairs.
+#include "simulation/scenes/scene_judge.hpp"
+
+#include <gmock/gmock.h>
+#include <set>
+
+#include "candidates/candidates.hpp"
+#include "reference/invalid_input.hpp"
+
+namespace touchstone {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+/// Two cans on the same ground, of different sizes and so of different kinds of pairs, for some
+/// steps.
+Scene two_cans(int steps, double depth) {
+  Scene scene;
+  scene.duration = steps * scene.step;
+  const auto at = [&](double x) { return Pose(Vec3(x, 0, 0.3 - depth)); };
+  scene.bodies = {{"ground", Plane(Vec3::UnitZ(), 0), 1000, {}, {}, {}, {}, true},
+                  {"left", Cylinder(0.2, 0.3), 1000, {}, at(-1)},
+                  {"right", Cylinder(0.3, 0.3), 1000, {}, at(1)}};
+  return scene;
+}
+
+TEST(RunScene, CountsThePointsOfAllPairsThatTheSolverGets) {
+  Scene scene = two_cans(1, 5e-5);
+  Body brick{"brick", Box(Vec3(0.1, 0.2, 0.3))};
+  brick.pose = Pose(Vec3(5, 0, 0.3 - 5e-5));
+  scene.bodies.push_back(brick);
+  Processes processes({});
+  CandidateModel model(processes.of(find_candidate("reference")));
+  EXPECT_EQ(run_scene(scene, model).points, 3 + 3 + 4);
+}
+
+TEST(RunScene, RefusesACandidateWithoutARoutineForAPairThatComesUp) {
+  const Scene scene = two_cans(1, 5e-5);
+  const Candidate& none = find_candidate("libccd-gjk");  // no half-space
+  Processes processes({});
+  CandidateModel model(processes.of(none), Unsupported::refused);
+  EXPECT_THAT([&] { run_scene(scene, model); },
+              testing::ThrowsMessage<InvalidInput>(
+                  testing::AllOf(HasSubstr("is \"libccd-gjk\""), HasSubstr("cylinder-plane"))));
+}
+
+/// A model that dies with every question.
+class Deadly : public ContactModel {
+ public:
+  void begin() override {}
+  std::vector<Answer> answers(std::span<const PairQuestion> questions) override {
+    Answer crashed{};
+    crashed.status = TS_CRASHED;
+    return std::vector<Answer>(questions.size(), crashed);
+  }
+};
+
+TEST(MotionTable, SaysHowManyQuestionsHadNoAnswer) {
+  const Scene scene = two_cans(2, 5e-5);
+  Deadly deadly;
+  EXPECT_THAT(motion_table(scene, run_scene(scene, deadly)),
+              HasSubstr("4 of 4 questions had no answer"));
+  Processes processes({});
+  CandidateModel exact(processes.of(find_candidate("reference")));
+  EXPECT_THAT(motion_table(scene, run_scene(scene, exact)), Not(HasSubstr("no answer")));
+}
+
+// The kinds are those of the scene as it is written, whatever the order of the disturbed bodies.
+TEST(RunWith, AsksTheCandidateOfEachKindInEveryOrderOfTheBodies) {
+  const Scene scene = two_cans(1, 5e-4);
+  const Candidate &exact = find_candidate("reference"), &capsule = find_candidate("capsule");
+  Processes processes({});
+  CandidateModel model(processes.of(exact));
+  const PairKinds kinds(scene, run_scene(scene, model));
+  ASSERT_EQ(kinds.all().size(), 2U);
+  std::set<std::vector<int>> orders;
+  for (std::size_t d = 0; d <= 20; ++d) {
+    const DisturbedScene disturbed(scene, 1, d);
+    orders.insert(disturbed.origin);
+    const Trajectory run = run_with(disturbed, kinds, {nullptr, &capsule}, exact, processes);
+    ASSERT_GE(run.answers.size(), 2U);
+    for (const JudgedAnswer& answer : run.answers) {
+      const std::string& name = disturbed.scene.bodies[answer.a].name;
+      EXPECT_EQ(answer.points == 1, name == "right") << name << ", disturbance " << d;
+    }
+  }
+  EXPECT_EQ(orders.size(), 6U);
+}
+
+TEST(NamedContacts, AreOfAllPairsOrOfKindsOfThem) {
+  const Scene scene = two_cans(1, 5e-5);
+  const Candidate& capsule = find_candidate("capsule");
+  EXPECT_EQ(read_contacts({"capsule"}, scene).for_all, &capsule);
+  const NamedContacts one = read_contacts({"cylinder ⌀0.4×0.6 on plane=capsule"}, scene);
+  EXPECT_EQ(one.for_all, nullptr);
+  Processes processes({});
+  const Trajectory run =
+      run_with(DisturbedScene(scene, 1, 0), one, find_candidate("reference"), processes);
+  ASSERT_GE(run.answers.size(), 2U);
+  EXPECT_EQ(run.answers[0].points, 1);  // a round end
+  EXPECT_EQ(run.answers[1].points, 3);  // a cap
+  for (const std::vector<std::string>& wrong : {std::vector<std::string>{"bulet"},
+                                                {"capsule", "prism:8"},
+                                                {"cylinder on plane=capsule"},
+                                                {"cylinder ⌀0.4×0.6 on plane=bulet"}}) {
+    EXPECT_THROW(read_contacts(wrong, scene), InvalidInput) << wrong[0];
+  }
+}
+
+TEST(LeastStepSeconds, AreThoseOfEachStepInAllRounds) {
+  std::vector<std::size_t> order;
+  const auto least = least_step_seconds(2, [&](std::size_t run) {
+    order.push_back(run);
+    const auto made = static_cast<double>(order.size());
+    return run == 0 ? std::vector{made, 20 - made} : std::vector{5.0};
+  });
+  EXPECT_THAT(order, testing::ElementsAre(0, 1, 1, 0, 0, 1, 1, 0, 0, 1));
+  EXPECT_THAT(least, testing::ElementsAre(std::vector{1.0, 11.0}, std::vector{5.0}));
+
+  order.clear();
+  const auto note = [&](std::size_t run) {
+    order.push_back(run);
+    return std::vector{1.0};
+  };
+  least_step_seconds(3, note, 2);
+  EXPECT_THAT(order, testing::ElementsAre(0, 1, 2, 1, 2, 0));
+}
+
+}  // namespace
+}  // namespace touchstone
