@@ -337,19 +337,13 @@ class SceneMaker {
   double strength(const LinkJoint& joint, int link) const {
     if (joint.effort) return std::min(*joint.effort, max_effort);
     Aabb all{Vec3::Constant(infinity), Vec3::Constant(-infinity)};
+    double mass = 0;
     for (std::size_t l = 0; l < links_.size(); ++l) {
       if (robot_of_[l] != robot_of_[link]) continue;
       for (const int b : bodies_of_[l]) {
         const Body& body = file_.scene.bodies[b];
         const Aabb box = aabb(body.shape, body.pose);
         all = {all.lower.cwiseMin(box.lower), all.upper.cwiseMax(box.upper)};
-      }
-    }
-    double mass = 0;
-    for (std::size_t l = 0; l < links_.size(); ++l) {
-      if (robot_of_[l] != robot_of_[link]) continue;
-      for (const int b : bodies_of_[l]) {
-        const Body& body = file_.scene.bodies[b];
         mass += inertia(body).inertia.mass;
       }
     }
