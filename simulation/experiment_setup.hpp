@@ -19,6 +19,12 @@ inline constexpr double steel = 7800;  ///< kg/m³
 
 inline double radians(double degrees) { return degrees * std::numbers::pi / 180; }
 
+inline Scene scene_for(double step, double duration) {
+  Scene scene;
+  scene.step = step;
+  scene.duration = duration;
+  return scene;
+}
 inline Body fixed_body(const std::string& name, const Shape& shape, double friction,
                        const Pose& pose = {}) {
   return {name, shape, steel, {friction, 0}, pose, Vec3::Zero(), Vec3::Zero(), true};

@@ -37,9 +37,7 @@ double ripple(const std::vector<double>& speeds) {
 }
 
 Measurement rolling(const Simulator& simulator, double step) {
-  Scene scene;
-  scene.step = step;
-  scene.duration = rolling_time;
+  Scene scene = scene_for(step, rolling_time);
   // x is down the slope, z its normal, the axis along y.
   const Eigen::Quaterniond turn = about(Vec3::UnitZ(), 0.4) * about(Vec3::UnitY(), slope);
   const Vec3 down = turn * Vec3::UnitX();
@@ -76,9 +74,7 @@ constexpr int coin_substeps = 8;
 constexpr double coin_time = 2;  // s
 
 Measurement spinning_coin(const Simulator& simulator, double step) {
-  Scene scene;
-  scene.step = step / coin_substeps;
-  scene.duration = coin_time;
+  Scene scene = scene_for(step / coin_substeps, coin_time);
   const double r = coin.radius(), h = coin.half_length(), rate = coin_rate(coin_lean);
   const Eigen::Quaterniond lean = about(Vec3::UnitY(), coin_lean);
   const Vec3 axis = lean * Vec3::UnitZ(), to_lowest = lean * Vec3::UnitX();
@@ -144,9 +140,7 @@ double sliding_distance(double step) {
 }
 
 Measurement sliding(const Simulator& simulator, double step) {
-  Scene scene;
-  scene.step = step;
-  scene.duration = 2;
+  Scene scene = scene_for(step, 2);
   const Vec3 half(3, 1, 0.25), start(-0.5, 0.2, half.z() + sliding_half_length - touching);
   Body can = moving_body("can", Cylinder(can_radius, sliding_half_length), sliding_friction,
                          Pose(start, about(Vec3::UnitZ(), 0.3)));
@@ -185,9 +179,7 @@ std::vector<double> wheel_speeds() {
 }
 
 Measurement wheel(const Simulator& simulator, double step) {
-  Scene scene;
-  scene.step = step;
-  scene.duration = 2;
+  Scene scene = scene_for(step, 2);
   const Vec3 start(0, 0, wheel_radius - touching);
   Body body = moving_body("wheel", Cylinder(wheel_radius, wheel_half_length), 0.9,
                           Pose(start, about(Vec3::UnitX(), -std::numbers::pi / 2)));

@@ -11,7 +11,8 @@ namespace {
 
 /// Lean at the start: one side is lifted, because in the rest pose itself a single contact point
 /// below the centre of mass would do.
-constexpr double lean = 0.01;  // rad
+constexpr double lean = 0.01;     // rad
+constexpr double rest_time = 10;  // s
 
 /// The pose rotated about a point of the world.
 Pose turned_about(const Pose& pose, const Vec3& pivot, const Vec3& axis, double angle) {
@@ -56,15 +57,8 @@ Measurement stay(const Scene& scene, const std::vector<Pose>& homes, const Simul
   });
 }
 
-Scene resting(double step) {
-  Scene scene;
-  scene.step = step;
-  scene.duration = 10;
-  return scene;
-}
-
 Measurement standing(const Simulator& simulator, double step) {
-  Scene scene = resting(step);
+  Scene scene = scene_for(step, rest_time);
   const Vec3 centre(0.1, -0.2, can_half_length - touching);
   const Pose home(centre, about(Vec3::UnitZ(), 0.3));
   const Vec3 pivot = centre + Vec3(0.6 * can_radius, 0.8 * can_radius, -can_half_length);
@@ -77,7 +71,7 @@ Measurement standing(const Simulator& simulator, double step) {
 /// friction. Lifted on that side, the can rocks in one plane and, without slip, returns to its
 /// place.
 Measurement standing_on_box(const Simulator& simulator, double step) {
-  Scene scene = resting(step);
+  Scene scene = scene_for(step, rest_time);
   const Eigen::Quaterniond turn = about(Vec3::UnitZ(), 0.4) * about(Vec3::UnitY(), radians(3));
   const Vec3 half(0.4, 0.4, 0.3);
   const Vec3 on_box(half.x() - can_radius / 2, 0, half.z() + can_half_length - touching);
@@ -92,7 +86,7 @@ Measurement standing_on_box(const Simulator& simulator, double step) {
 /// One end is lifted. Until it has landed, the rim of the other end needs a friction of 0.77 to
 /// stick.
 Measurement lying(const Simulator& simulator, double step) {
-  Scene scene = resting(step);
+  Scene scene = scene_for(step, rest_time);
   const Vec3 centre(0.1, -0.2, can_radius - touching);
   const Eigen::Quaterniond turn = about(Vec3::UnitZ(), 0.4);
   const Pose home(centre, turn * level() * about(Vec3::UnitZ(), 0.7));
@@ -109,7 +103,7 @@ constexpr double stacked_half_length = can_radius;  // as high as wide
 constexpr double max_offset = 0.1;                  // m, between stacked axes
 
 Measurement stack(const Simulator& simulator, double step) {
-  Scene scene = resting(step);
+  Scene scene = scene_for(step, rest_time);
   // With 200 the residual of the solver moved the bodies ten thousand times as far.
   scene.solver_iterations = 1000;
   const double half = stacked_half_length;
@@ -128,7 +122,7 @@ Measurement stack(const Simulator& simulator, double step) {
 /// A log, four times as long as wide, lies on a level box, where nothing but its roundness keeps
 /// it.
 Measurement log_on_box(double radius, const Simulator& simulator, double step) {
-  Scene scene = resting(step);
+  Scene scene = scene_for(step, rest_time);
   const Vec3 half(1, 1, 0.25), centre(0.1, -0.2, half.z() + radius - touching);
   const Pose home(centre, about(Vec3::UnitZ(), 0.4) * level() * about(Vec3::UnitZ(), 0.7));
   scene.bodies = {fixed_body("box", Box(half), 0.5),
@@ -138,7 +132,7 @@ Measurement log_on_box(double radius, const Simulator& simulator, double step) {
 
 /// Cans as high as wide, in line, upon a level box.
 Measurement tower(int count, double radius, const Simulator& simulator, double step) {
-  Scene scene = resting(step);
+  Scene scene = scene_for(step, rest_time);
   scene.solver_iterations = 1000;
   const double top = 0.25;
   scene.bodies = {fixed_body("box", Box(Vec3(1, 1, top)), 0.5)};
@@ -160,8 +154,7 @@ Measurement disc_on_log(const Simulator& simulator, double step) {
   Measurement worst{0, 0, {}};
   RunTally tally;
   for (int i = 0; i < 12; ++i) {
-    Scene scene = resting(step);
-    scene.duration = 1;
+    Scene scene = scene_for(step, 1);
     const Eigen::Quaterniond turn = about(Vec3::UnitZ(), 0.1 + 0.26 * i);
     const Pose home((fixed_log_radius + disc_half_length - touching) * Vec3::UnitZ(), turn);
     scene.bodies = {fixed_body("log", Cylinder(fixed_log_radius, fixed_log_half_length), 0.5,
@@ -178,7 +171,7 @@ Measurement disc_on_log(const Simulator& simulator, double step) {
 
 /// A coin is let go with one side lifted by 25°; it falls and must lie flat.
 Measurement settling_coin(const Simulator& simulator, double step) {
-  Scene scene = resting(step);
+  Scene scene = scene_for(step, rest_time);
   const double r = coin_radius, h = coin_half_length, lean_of_coin = radians(25);
   const double height = h * std::cos(lean_of_coin) + r * std::sin(lean_of_coin) - touching;
   scene.bodies = {ground(0.5), moving_body("coin", Cylinder(r, h), 0.5,

@@ -41,9 +41,7 @@ double tipping_angle(double) { return std::atan2(can_radius, can_half_length); }
 Measurement tipping(const Simulator& simulator, double step) {
   RunTally tally;
   const auto stands = [&](double slope) {
-    Scene scene;
-    scene.step = step;
-    scene.duration = 2;
+    Scene scene = scene_for(step, 2);
     constexpr double friction = 2;  // enough to tip before sliding
     const Eigen::Quaterniond turn = about(Vec3::UnitZ(), 0.4) * about(Vec3::UnitY(), slope);
     const Vec3 up = turn * Vec3::UnitZ();
@@ -89,9 +87,7 @@ double pile_friction(double) { return std::tan(std::asin(half_spacing / (2 * can
 Measurement log_pile(const Simulator& simulator, double step) {
   RunTally tally;
   const auto holds = [&](double friction) {
-    Scene scene;
-    scene.step = step;
-    scene.duration = pile_time;
+    Scene scene = scene_for(step, pile_time);
     scene.solver_iterations = 500;
     const double depth = middle_of_layer(scene), low = can_radius - depth;
     const double between = 2 * can_radius - depth;
@@ -140,9 +136,7 @@ double edge_resolution(double) {
 Measurement across_edge(const Simulator& simulator, double step) {
   RunTally tally;
   const auto stays = [&](double overhang) {
-    Scene scene;
-    scene.step = step;
-    scene.duration = edge_time;
+    Scene scene = scene_for(step, edge_time);
     const Vec3 half(0.6, 0.5, 0.3);
     const Eigen::Quaterniond turn = about(Vec3::UnitZ(), 0.4);
     const Vec3 centre(half.x() + overhang, 0, half.z() + can_radius - touching);
