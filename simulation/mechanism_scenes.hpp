@@ -4,9 +4,11 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <string>
 #include <utility>
 #include <vector>
 
+#include "reference/invalid_input.hpp"
 #include "simulation/scene.hpp"
 
 // Bodies, joints and scenes for the tests of mechanisms, in our own world and in the engines'.
@@ -31,6 +33,16 @@ inline Motor rate(double target, double force) {
 /// Reaches its position after half a second.
 inline Motor position(double target, double force) {
   return {Motor::Target::position, {{0, 0}, {0.5, target}}, force};
+}
+
+/// What check_scene says of a scene.
+inline std::string refusal_of(const Scene& scene) {
+  try {
+    check_scene(scene);
+  } catch (const InvalidInput& e) {
+    return e.what();
+  }
+  return "accepted";
 }
 
 /// Right-handed angle about z, −π … π.

@@ -14,7 +14,22 @@ using testing::HasSubstr;
 Pose at(double x, double y, double z) { return {Vec3(x, y, z), Eigen::Quaterniond::Identity()}; }
 Body world_ground() { return {"ground", Plane(Vec3::UnitZ(), 0), 1000, {}, {}, {}, {}, true}; }
 
-using WorldTest = WorldFixture;
+struct WorldTest : WorldFixture {
+  /// Why a world is refused in which this is changed, or that it is accepted.
+  template <class Spoil>
+  std::string refusal(Spoil spoil) {
+    Scene scene;
+    scene.bodies = {world_ground(), {"can", Cylinder(0.2, 0.3)}};
+    spoil(scene);
+    try {
+      World world(scene, model);
+      world.step();
+    } catch (const InvalidInput& e) {
+      return e.what();
+    }
+    return "accepted";
+  }
+};
 
 TEST_F(WorldTest, FreeFlightKeepsMomentumAndStraightLines) {
   Scene scene;
@@ -119,17 +134,6 @@ TEST_F(WorldTest, SameSceneGivesTheSameBits) {
 }
 
 TEST_F(WorldTest, BadScenesAreRefusedByTheirField) {
-  const auto refusal = [&](auto spoil) {
-    Scene scene;
-    scene.bodies = {world_ground(), {"can", Cylinder(0.2, 0.3)}};
-    spoil(scene);
-    try {
-      const World world(scene, model);
-    } catch (const InvalidInput& e) {
-      return std::string(e.what());
-    }
-    return std::string("accepted");
-  };
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THAT(refusal([](Scene& s) { s.bodies.clear(); }), HasSubstr("bodies is empty"));
   EXPECT_THAT(refusal([](Scene& s) { s.bodies[1].density = 0; }), HasSubstr("bodies[1].density"));
@@ -151,51 +155,42 @@ TEST_F(WorldTest, BadScenesAreRefusedByTheirField) {
 
 // Finite but absurd: ODE would end the process.
 TEST_F(WorldTest, RefusesNumbersThatNoWorldHas) {
-  const auto refusal = [&](auto spoil) {
-    Scene scene;
-    scene.bodies = {world_ground(), {"can", Cylinder(0.2, 0.3)}};
-    spoil(scene);
-    try {
-      World world(scene, model);
-      world.step();
-    } catch (const InvalidInput& e) {
-      return e.field();
-    }
-    return std::string("accepted");
+  const auto field = [&](auto spoil) {
+    const std::string said = refusal(spoil);
+    return said.substr(0, said.find(" is "));
   };
   const auto turned = [](double length) {
     return Pose(Vec3::Zero(), Eigen::Quaterniond(length, 0, 0, 0));
   };
   for (const double absurd : {1e200, 1e308, 1e16}) {
-    EXPECT_EQ(refusal([&](Scene& s) { s.bodies[1].angular_velocity.x() = absurd; }),
+    EXPECT_EQ(field([&](Scene& s) { s.bodies[1].angular_velocity.x() = absurd; }),
               "bodies[1].angular_velocity[0]");
-    EXPECT_EQ(refusal([&](Scene& s) { s.bodies[1].velocity.z() = -absurd; }),
+    EXPECT_EQ(field([&](Scene& s) { s.bodies[1].velocity.z() = -absurd; }),
               "bodies[1].velocity[2]");
-    EXPECT_EQ(refusal([&](Scene& s) { s.bodies[1].pose = Pose(Vec3(0, absurd, 0)); }),
+    EXPECT_EQ(field([&](Scene& s) { s.bodies[1].pose = Pose(Vec3(0, absurd, 0)); }),
               "bodies[1].pose.position[1]");
-    EXPECT_EQ(refusal([&](Scene& s) { s.gravity.y() = absurd; }), "gravity[1]");
-    EXPECT_EQ(refusal([&](Scene& s) { s.step = absurd; }), "step");
-    EXPECT_EQ(refusal([&](Scene& s) { s.step = 1 / absurd; }), "step");
-    EXPECT_EQ(refusal([&](Scene& s) { s.surface_layer = absurd; }), "surface_layer");
-    EXPECT_EQ(refusal([&](Scene& s) { s.bodies[1].density = absurd; }), "bodies[1].density");
-    EXPECT_EQ(refusal([&](Scene& s) { s.bodies[1].density = 1 / absurd; }), "bodies[1].density");
-    EXPECT_EQ(refusal([&](Scene& s) { s.bodies[1].shape = Sphere(absurd); }), "bodies[1].shape");
-    EXPECT_EQ(refusal([&](Scene& s) { s.bodies[1].shape = Sphere(1 / absurd); }),
-              "bodies[1].shape");
-    EXPECT_EQ(refusal([&](Scene& s) { s.bodies[1].material.friction = absurd; }),
+    EXPECT_EQ(field([&](Scene& s) { s.gravity.y() = absurd; }), "gravity[1]");
+    EXPECT_EQ(field([&](Scene& s) { s.step = absurd; }), "step");
+    EXPECT_EQ(field([&](Scene& s) { s.step = 1 / absurd; }), "step");
+    EXPECT_EQ(field([&](Scene& s) { s.surface_layer = absurd; }), "surface_layer");
+    EXPECT_EQ(field([&](Scene& s) { s.bodies[1].density = absurd; }), "bodies[1].density");
+    EXPECT_EQ(field([&](Scene& s) { s.bodies[1].density = 1 / absurd; }), "bodies[1].density");
+    EXPECT_EQ(field([&](Scene& s) { s.bodies[1].shape = Sphere(absurd); }), "bodies[1].shape");
+    EXPECT_EQ(field([&](Scene& s) { s.bodies[1].shape = Sphere(1 / absurd); }), "bodies[1].shape");
+    EXPECT_EQ(field([&](Scene& s) { s.bodies[1].material.friction = absurd; }),
               "bodies[1].friction");
-    EXPECT_EQ(refusal([&](Scene& s) { s.bodies[0].shape = Plane(Vec3(0, 0, 1), absurd); }),
+    EXPECT_EQ(field([&](Scene& s) { s.bodies[0].shape = Plane(Vec3(0, 0, 1), absurd); }),
               "bodies[0].shape.displacement");
   }
   // A rod whose moment of inertia about its axis is zero beside the others.
-  EXPECT_EQ(refusal([](Scene& s) { s.bodies[1].shape = Box(Vec3(1e6, 1e-6, 1e-6)); }),
+  EXPECT_EQ(field([](Scene& s) { s.bodies[1].shape = Box(Vec3(1e6, 1e-6, 1e-6)); }),
             "bodies[1].shape");
-  EXPECT_EQ(refusal([&](Scene& s) { s.bodies[1].pose = turned(1e200); }),
+  EXPECT_EQ(field([&](Scene& s) { s.bodies[1].pose = turned(1e200); }),
             "bodies[1].pose.orientation");
-  EXPECT_EQ(refusal([&](Scene& s) { s.bodies[1].pose = turned(1e-200); }),
+  EXPECT_EQ(field([&](Scene& s) { s.bodies[1].pose = turned(1e-200); }),
             "bodies[1].pose.orientation");
-  EXPECT_EQ(refusal([&](Scene& s) { s.bodies[1].pose = turned(1e80); }), "accepted");
-  EXPECT_EQ(refusal([](Scene& s) { s.bodies[1].shape = Cylinder(1e6, 1e6); }), "accepted");
+  EXPECT_EQ(field([&](Scene& s) { s.bodies[1].pose = turned(1e80); }), "accepted");
+  EXPECT_EQ(field([](Scene& s) { s.bodies[1].shape = Cylinder(1e6, 1e6); }), "accepted");
 }
 
 Scene two_cans_on_the_ground() {
