@@ -9,7 +9,6 @@
 #include <fstream>
 #include <system_error>
 
-#include "candidates/host/command_process.hpp"
 #include "candidates/host/plugin_process.hpp"
 #include "candidates/npm_engines.hpp"
 #include "reference/invalid_input.hpp"
@@ -192,14 +191,11 @@ class Registry {
   static Candidate told_by(const std::string& command, const std::filesystem::path& folder,
                            const Added& subject) {
     try {
-      auto [candidate, format] = CommandProcess(command, folder).start();
-      candidate.origin = Candidate::Command{command, folder, format == messages::Format::frames};
-      return candidate;
-    } catch (const NoAnswer& failure) {
-      throw InvalidInput(
-          subject.option, in_quotes(subject.value),
-          "must be a command that speaks as docs/process-candidates.md says, not as this one: " +
-              failure.reason);
+      return PluginProcess(Candidate::Command{command, folder, false}).candidates().front();
+    } catch (const NoHost&) {
+      throw;
+    } catch (const InvalidInput& e) {
+      throw InvalidInput(subject.option, in_quotes(subject.value), e.remedy());
     }
   }
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "candidates/host/command_respondent.hpp"
 #include "candidates/host/plugin_sessions.hpp"
 #include "candidates/readable.hpp"
 
@@ -26,12 +25,10 @@ Question question_of(const Asked& asked) {
 CandidateProcess::CandidateProcess(const Candidate& candidate, double threshold,
                                    const Limits& limits)
     : candidate_(candidate), threshold_(threshold) {
-  if (candidate.plugin()) {
-    respondent_ = std::make_unique<PluginSessions>(candidate, limits);
-  } else if (candidate.command()) {
-    respondent_ = std::make_unique<CommandRespondent>(candidate, limits);
+  if (const auto* const function = std::get_if<Candidate::Function>(&candidate.origin)) {
+    respondent_ = (*function)(limits);
   } else {
-    respondent_ = std::get<Candidate::Function>(candidate.origin)(limits);
+    respondent_ = std::make_unique<PluginSessions>(candidate, limits);
   }
 }
 
@@ -88,7 +85,7 @@ std::vector<Answer> CandidateProcess::ask(std::span<const Configuration> configu
 
   std::size_t suspects = 0;  // of the next questions one ends the process; which is not known
   for (std::size_t at = 0; at < asked.size();) {
-    const std::size_t wanted = suspects > 0 ? (suspects + 1) / 2 : respondent_->batch();
+    const std::size_t wanted = suspects > 0 ? (suspects + 1) / 2 : batch_size;
     const auto batch = std::span(asked).subspan(at, std::min(wanted, asked.size() - at));
     std::vector<std::optional<Answer>> given(batch.size());
     const auto failure = respondent_->ask(batch, manner.release, given);

@@ -44,9 +44,9 @@ struct QueryCost {
   std::optional<Measured> measured = {};
 };
 
-/// One candidate that is asked in processes of its own: sessions of its plug-in's process
-/// (plugin_sessions.hpp) or a command (command_respondent.hpp). Alone a function of this program is
-/// asked in the process that this is used in (Candidate::Function).
+/// One candidate that is asked in processes of its own: sessions of its plug-in's process, or a
+/// command (plugin_sessions.hpp). Alone a function of this program is asked in the process that
+/// this is used in (Candidate::Function).
 ///
 /// Questions go in batches, and a failure costs one of them. The answers before it count. The
 /// question that was in hand, if that is known, is asked once more, alone in a new session, unless

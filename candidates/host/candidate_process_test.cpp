@@ -535,7 +535,6 @@ TEST(PluginHost, OfAnotherBuildIsRefused) {
   Reply reply{};
   EXPECT_EQ(recv(ends[0], &reply, sizeof reply, 0), static_cast<ssize_t>(sizeof reply));
   EXPECT_EQ(reply.kind, Reply::no_host);
-  EXPECT_THAT(reply.text, HasSubstr("of another build"));
   int status = 0;
   EXPECT_EQ(waitpid(pid, &status, 0), pid);
   EXPECT_EQ(WEXITSTATUS(status), 2);

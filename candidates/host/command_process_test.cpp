@@ -1,5 +1,4 @@
-#include "candidates/host/command_process.hpp"
-
+// A command is asked as a plug-in is, whatever it does.
 #include <cmath>
 #include <fstream>
 #include <gmock/gmock.h>
@@ -8,15 +7,13 @@
 
 #include "candidates/candidates.hpp"
 #include "candidates/host/candidate_process.hpp"
-#include "candidates/host/respondent.hpp"
+#include "candidates/host/plugin_process.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone {
 namespace {
 
-using testing::Field;
 using testing::HasSubstr;
-using testing::Throws;
 using testing::ThrowsMessage;
 
 constexpr double mark = 666;
@@ -210,9 +207,9 @@ TEST(CommandProcess, IsRefusedWithTheReason) {
   refused_with("hello {\"name\": \"reference\"}", "a name that is taken");
   EXPECT_THAT([] { add_command("/no/such/program"); },
               ThrowsMessage<InvalidInput>(HasSubstr("not found")));
-  CommandProcess silent(command("frames", "silent"), std::filesystem::current_path());
-  EXPECT_THAT([&] { silent.start(std::chrono::milliseconds(300)); },
-              Throws<NoAnswer>(Field(&NoAnswer::status, TS_TIMED_OUT)));
+  const Candidate silent = told("frames", "silent");
+  EXPECT_THAT([&] { PluginProcess(*silent.command(), std::chrono::milliseconds(300)); },
+              ThrowsMessage<InvalidInput>(HasSubstr("nothing was heard of it within 300 ms")));
 }
 
 TEST(CommandProcess, IsAddedByCommandAndByList) {

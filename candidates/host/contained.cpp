@@ -14,7 +14,6 @@
 #include <unistd.h>
 
 #include "candidates/host/guard.hpp"
-#include "candidates/host/host_process.hpp"
 
 namespace touchstone {
 namespace {

@@ -1,7 +1,6 @@
 #include "candidates/host/exchange.hpp"
 
 #include <cerrno>
-#include <cstdio>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -13,10 +12,8 @@ void send(int socket, const void* message, std::size_t size) {
   }
 }
 
-void reply(int socket, Reply::Kind kind, std::uint64_t ticket, int value, const char* text,
-           bool left_behind) {
-  Reply r{kind, value, ticket, left_behind, {}};
-  std::snprintf(r.text, sizeof r.text, "%s", text);
+void reply(int socket, Reply::Kind kind, std::uint64_t ticket, int value, bool left_behind) {
+  const Reply r{kind, value, ticket, left_behind};
   send(socket, &r, sizeof r);
 }
 

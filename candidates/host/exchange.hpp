@@ -5,7 +5,9 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <cstring>
+#include <string>
 #include <string_view>
 #include <sys/types.h>
 
@@ -60,13 +62,15 @@ struct Questions {
 
 /// Shared memory, zero at first.
 struct Exchange {
-  /// Number of finished slots of this batch; the upper half is the lower half of the command's
-  /// ticket, which reveals overwriting.
+  /// Number of finished slots of this batch, or of steps; the upper half is the lower half of the
+  /// command's ticket, which reveals overwriting.
   std::atomic<std::uint64_t> progress;
-  char thrown[240];         ///< text of an uncaught exception
+  char text[1000];          ///< what an uncaught exception said, or why there is no candidate
   double nanoseconds;       ///< per query, in the last timed round
-  double instructions;      ///< likewise; NaN if they cannot be counted
+  double queries;           ///< in that round
+  double instructions;      ///< per query; NaN if they cannot be counted
   double tail_nanoseconds;  ///< 95th percentile over the queries of each one's least time so far
+  double floor;             ///< of a command: nanoseconds of a query of the shapes far apart
   Slot slots[batch_size];
 };
 
@@ -96,7 +100,7 @@ struct SessionCommand {
     answer,   ///< answer slots 0 … count − 1
     keep,     ///< keep the questions of slots 0 … count − 1 for timing
     warm_up,  ///< prepare and query once as many of them as fit into the time of one round
-    time,     ///< one timed round
+    time,     ///< one timed round; of a command, `count` times as long
     finish    ///< end the session
   };
   Kind kind;
@@ -108,6 +112,7 @@ struct SessionCommand {
   std::int32_t index;
   double parameter;
   std::uint64_t memory;  ///< growth in bytes that a session is allowed
+  bool warm;             ///< `begin`: a command is first asked an easy question
 };
 
 /// A message to the harness. Everything else on the socket is noise, as from a routine that writes
@@ -115,8 +120,8 @@ struct SessionCommand {
 struct Reply {
   enum Kind : std::uint32_t {
     described,  ///< the plug-in has `value` candidates; a Description of each follows
-    refused,    ///< the plug-in cannot be used; `text` says why
-    no_host,    ///< what loads plug-ins cannot do so; `text` says why
+    refused,    ///< the plug-in cannot be used; Exchange::text says why
+    no_host,    ///< what loads plug-ins is of another build
     began,      ///< sent by the session itself; `value` is negative if none could be forked
     finished,   ///< the session has done its command
     ended,      ///< the session has ended with the wait status `value`
@@ -126,17 +131,30 @@ struct Reply {
   std::int32_t value;
   std::uint64_t ticket;  ///< ticket of the command; for `ended`, of the one that began the session
   bool left_behind;      ///< for `ended`: processes that the session started are still running
-  char text[240];
 };
 
-/// A ts_candidate without pointers. Longer texts are truncated.
+/// A candidate without pointers. Longer texts are truncated.
 struct Description {
-  char name[64], version[64], settings[1024], models[512], meaning[256];
+  char name[64], version[256], settings[4096], models[1024], meaning[256];
   double min, max, usual;
   bool has_parameter, whole, bare;
   bool supports[5];
   bool unforked;
+  // Of a command; empty and false of a plug-in.
+  char precision[8], runs[8];
+  bool in_frames;
 };
+
+/// A text that may lack its end.
+template <std::size_t size>
+std::string text_of(const char (&text)[size]) {
+  return std::string(text, strnlen(text, size));
+}
+
+template <std::size_t size>
+void copy_text(const char* from, char (&to)[size]) {
+  std::snprintf(to, size, "%s", from ? from : "");
+}
 
 /// Exit code of a session that ended by an exception.
 inline constexpr int exit_thrown = 97;
@@ -149,13 +167,16 @@ inline bool same(const ts_shape& x, const ts_shape& y) {
 
 // Messages on the candidate's side. They end the process if the harness has gone.
 void send(int socket, const void* message, std::size_t size);
-void reply(int socket, Reply::Kind kind, std::uint64_t ticket, int value, const char* text = "",
-           bool left_behind = false);
+void reply(int socket, Reply::Kind kind, std::uint64_t ticket, int value, bool left_behind = false);
 SessionCommand receive(int socket);
 
+class SpokenCommand;
+
 /// One candidate's session in this process: executes commands until it is told to finish or dies.
-[[noreturn]] void serve_session(const ts_candidate& candidate, const SessionCommand& begin,
-                                int socket, const Questions& questions, Exchange& exchange);
+/// `spoken` is what answers if that is a command, which measures its time itself; else null.
+[[noreturn]] void serve_session(const ts_candidate& candidate, SpokenCommand* spoken,
+                                const SessionCommand& begin, int socket, const Questions& questions,
+                                Exchange& exchange);
 
 /// Descriptors of a plug-in's process besides the standard three, when it is started: its end of
 /// the socket, and the shared memory.
@@ -164,9 +185,9 @@ inline constexpr int host_socket = 3, host_questions = 4, host_exchange = 5;
 /// Otherwise every session would do so again.
 inline constexpr const char* bind_now = "LD_BIND_NOW";
 
-/// Main function of a plug-in's process: loads the plug-in, describes it on the socket, then serves
-/// sessions until the other end is closed.
-[[noreturn]] void serve_plugin(const char* file, int socket, const Questions& questions,
-                               Exchange& exchange);
+/// Main function of a plug-in's process: loads the plug-in, or where there is a folder starts the
+/// command in it, describes it on the socket, then serves sessions until the other end is closed.
+[[noreturn]] void serve_plugin(const char* file, const char* folder, int socket,
+                               const Questions& questions, Exchange& exchange);
 
 }  // namespace touchstone

@@ -15,6 +15,7 @@
 #include <sys/resource.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
+#include <system_error>
 #include <unistd.h>
 
 #include "candidates/host/exchange.hpp"
@@ -59,7 +60,6 @@ void end_descendants(pid_t child) {
 }
 
 [[noreturn]] void guard(pid_t child, int socket) {
-  for (const int held : {STDIN_FILENO, STDOUT_FILENO}) close(held);  // pipes of the child
   sigset_t awaited;
   sigemptyset(&awaited);
   sigaddset(&awaited, SIGCHLD);
@@ -129,6 +129,8 @@ std::string how_it_ended(int status) {
   if (WIFSTOPPED(status)) return "was stopped";
   return "ended with exit code " + std::to_string(WEXITSTATUS(status));
 }
+
+void fail(const char* call) { throw std::system_error(errno, std::generic_category(), call); }
 
 void end_guard(pid_t guard) {
   kill(guard, SIGCONT);

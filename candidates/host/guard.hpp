@@ -12,10 +12,9 @@ namespace touchstone {
 bool begin_pid_namespace();
 
 /// Forks, and returns in the child only. The parent becomes the child's guard and runs nothing
-/// else; it closes its standard input and output. When the child ends or is stopped, or on SIGTERM
-/// (which the guard also gets when its own parent ends), the guard kills all descendants of the
-/// child and exits. On `socket`, unless it is -1, it reports that the child has ended, with its
-/// wait status (Reply::gone of exchange.hpp).
+/// else. When the child ends or is stopped, or on SIGTERM (which the guard also gets when its own
+/// parent ends), the guard kills all descendants of the child and exits. On `socket`, unless it is
+/// -1, it reports that the child has ended, with its wait status (Reply::gone of exchange.hpp).
 ///
 /// The child leads a process group of its own, so that signals to a group or from a terminal do not
 /// cross. (Not a session of its own: Linux schedules sessions in turn, see sched_autogroup in
@@ -31,6 +30,9 @@ std::string last_line(int file);
 
 /// "Segmentation fault", "ended with exit code 3": how a process of this wait status ended.
 std::string how_it_ended(int wait_status);
+
+/// Throws std::system_error of errno.
+[[noreturn]] void fail(const char* call);
 
 /// Ends a guard that this process has forked, with all that it guards, and waits for its end.
 void end_guard(pid_t guard);

@@ -12,8 +12,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "candidates/readable.hpp"
-
 namespace touchstone::messages {
 namespace {
 
@@ -23,7 +21,7 @@ static_assert(std::endian::native == std::endian::little,
               "frames are copied as they lie in memory");
 
 constexpr std::size_t header_size = 24, length_size = 4;
-constexpr std::size_t point_size = 56, answer_size = 48 + TOUCHSTONE_MAX_POINTS * point_size;
+constexpr std::size_t point_size = 56, answer_bytes = 48 + TOUCHSTONE_MAX_POINTS * point_size;
 static_assert(sizeof(ts_point) == point_size);
 
 /// Throws Garbage.
@@ -34,22 +32,7 @@ static_assert(sizeof(ts_point) == point_size);
 constexpr const char* pairs_text =
     "\"cylinder-plane\", \"cylinder-sphere\", \"cylinder-capsule\", \"cylinder-cylinder\", "
     "\"cylinder-box\"";
-
-/// The kind of the other shape of "cylinder-box"; absent for what is no pair.
-std::optional<ts_shape_kind> kind_of_pair(const std::string& pair) {
-  constexpr struct {
-    const char* name;
-    ts_shape_kind kind;
-  } pairs[] = {{"cylinder-plane", TS_PLANE},
-               {"cylinder-sphere", TS_SPHERE},
-               {"cylinder-capsule", TS_CAPSULE},
-               {"cylinder-cylinder", TS_CYLINDER},
-               {"cylinder-box", TS_BOX}};
-  for (const auto& [name, kind] : pairs) {
-    if (pair == name) return kind;
-  }
-  return std::nullopt;
-}
+constexpr const char* shape_names[] = {"cylinder", "plane", "sphere", "capsule", "box"};
 
 /// Levels of a message, as of other JSON (docs/solve.md); printing deeper ones would take the
 /// stack.
@@ -109,7 +92,7 @@ std::string choice_member(const Json& json, const char* name,
   refuse_member(name, text, remedy);
 }
 
-Candidate::Parameter parameter_member(const Json& value) {
+void read_parameter(const Json& value, Description& d) {
   const auto bad = [&] {
     refuse_member(
         "parameter", value,
@@ -121,25 +104,24 @@ Candidate::Parameter parameter_member(const Json& value) {
     if (!value.value(name, Json()).is_number()) bad();
   }
   if (!value.value("whole", Json(false)).is_boolean()) bad();
-  Candidate::Parameter p{value["meaning"],
-                         value["min"],
-                         value["max"],
-                         value["usual"],
-                         value.value("whole", false),
-                         false};
-  if (p.meaning.empty() || !(p.min <= p.usual && p.usual <= p.max)) bad();
-  return p;
+  d.has_parameter = true;
+  copy_text(value["meaning"].get_ref<const std::string&>().c_str(), d.meaning);
+  d.min = value["min"];
+  d.max = value["max"];
+  d.usual = value["usual"];
+  d.whole = value.value("whole", false);
+  if (d.meaning[0] == '\0' || !(d.min <= d.usual && d.usual <= d.max)) bad();
 }
 
 // Frames
 
 class Writer {
  public:
-  Writer(Operation operation, std::uint64_t ticket, std::size_t count, std::uint32_t passes) {
+  explicit Writer(const Request& request, std::uint32_t passes = 0) {
     put(std::uint32_t{0});  // the length, at the end
-    put(operation);
-    put(ticket);
-    put(static_cast<std::uint32_t>(count));
+    put(request.operation);
+    put(request.ticket);
+    put(request.count);
     put(passes);
   }
   template <class T>
@@ -164,17 +146,16 @@ class Writer {
 class Reader {
  public:
   /// Reads the header.
-  Reader(Operation operation, std::uint64_t ticket, std::uint32_t count, const std::string& bytes)
-      : bytes_(bytes) {
-    const std::size_t size = frame_size(operation, count);
+  Reader(const Request& request, const std::string& bytes) : bytes_(bytes) {
+    const std::size_t size = request.answer_size();
     if (bytes.size() != size) {
       refuse("its frame has " + std::to_string(bytes.size()) + " bytes instead of " +
              std::to_string(size));
     }
     expect("length", static_cast<std::uint32_t>(size - length_size));
-    expect("operation", static_cast<std::uint32_t>(operation));
-    expect("ticket", ticket);
-    expect("count", count);
+    expect("operation", static_cast<std::uint32_t>(request.operation));
+    expect("ticket", request.ticket);
+    expect("count", request.count);
     get<std::uint32_t>();
   }
   template <class T>
@@ -184,7 +165,6 @@ class Reader {
     at_ += sizeof value;
     return value;
   }
-  void skip(std::size_t bytes) { at_ += bytes; }
 
  private:
   template <class T>
@@ -199,14 +179,6 @@ class Reader {
   std::size_t at_ = 0;
 };
 
-void put(Writer& out, const Poses& p) {
-  out.put(p.handle);
-  out.put(std::uint32_t{p.has_previous_normal});
-  out.put(p.a);
-  out.put(p.b);
-  out.put(p.previous_normal);
-}
-
 Answer get_answer(Reader& in) {
   Answer answer{};
   const auto status = in.get<std::uint32_t>();
@@ -220,7 +192,6 @@ Answer get_answer(Reader& in) {
   if (answer.status != TS_CONTACT) {
     static_cast<ts_answer&>(answer) = {};
     answer.status = static_cast<ts_status>(status);
-    in.skip(TOUCHSTONE_MAX_POINTS * point_size);
     return answer;
   }
   if (points > TOUCHSTONE_MAX_POINTS) {
@@ -250,51 +221,45 @@ Json numbers(const double (&x)[size]) {
 
 Json shape_json(const ts_shape& s) {
   const double* const size = s.size;
+  Json json = {{"shape", shape_names[s.kind]}};
   switch (s.kind) {
     case TS_CYLINDER:
-      return {{"shape", "cylinder"}, {"radius", size[0]}, {"half_length", size[1]}};
-    case TS_PLANE:
-      return {
-          {"shape", "plane"}, {"normal", {size[0], size[1], size[2]}}, {"displacement", size[3]}};
-    case TS_SPHERE:
-      return {{"shape", "sphere"}, {"radius", size[0]}};
     case TS_CAPSULE:
-      return {{"shape", "capsule"}, {"radius", size[0]}, {"half_length", size[1]}};
-    case TS_BOX:
+      json["half_length"] = size[1];
+      [[fallthrough]];
+    case TS_SPHERE:
+      json["radius"] = size[0];
       break;
+    case TS_PLANE:
+      json["normal"] = {size[0], size[1], size[2]};
+      json["displacement"] = size[3];
+      break;
+    case TS_BOX:
+      json["half_extents"] = {size[0], size[1], size[2]};
   }
-  return {{"shape", "box"}, {"half_extents", {size[0], size[1], size[2]}}};
+  return json;
 }
 
 Json pose_json(const ts_pose& pose) {
   return {{"position", numbers(pose.position)}, {"orientation", numbers(pose.orientation)}};
 }
 
-Json poses_json(std::span<const Poses> poses) {
-  Json entries = Json::array();
-  for (const Poses& p : poses) {
-    entries.push_back({{"handle", p.handle},
-                       {"pose_a", pose_json(p.a)},
-                       {"pose_b", pose_json(p.b)},
-                       {"hint", p.has_previous_normal ? numbers(p.previous_normal) : Json()}});
-  }
-  return entries;
-}
-
-std::string request_line(const char* operation, std::uint64_t ticket, Json entries,
-                         std::uint32_t passes = 0) {
-  Json json = {{"op", operation}, {"ticket", ticket}, {"entries", std::move(entries)}};
+std::string request_line(const Request& request, Json entries, std::uint32_t passes = 0) {
+  constexpr const char* names[] = {"", "prepare", "query", "time", "release"};
+  Json json = {{"op", names[static_cast<std::size_t>(request.operation)]},
+               {"ticket", request.ticket},
+               {"entries", std::move(entries)}};
   if (passes > 0) json["passes"] = passes;
   return json.dump() + '\n';
 }
 
 /// The answer in a line. Throws Garbage if it has another ticket.
-Json answer_line(std::uint64_t ticket, const std::string& line) {
+Json answer_line(const Request& request, const std::string& line) {
   Json json = parsed(line);
   const Json found = json.value("ticket", Json());
-  if (!found.is_number_unsigned() || found.get<std::uint64_t>() != ticket) {
+  if (!found.is_number_unsigned() || found.get<std::uint64_t>() != request.ticket) {
     refuse("its ticket is " + quoted(found.dump(-1, ' ', true)) + " instead of " +
-           std::to_string(ticket));
+           std::to_string(request.ticket));
   }
   return json;
 }
@@ -369,88 +334,102 @@ std::string quoted(const std::string& text) {
 
 std::string hello() { return R"({"touchstone": 1})"; }
 
-Hello read_hello(const std::string& line) {
+Description read_hello(const std::string& line) {
   const Json json = parsed(line);
   const Json version = json.value("touchstone", Json());
   if (version != 1) refuse_member("touchstone", version, "1, the version of this protocol");
-  Candidate c;
-  c.name = c.family = text_member(json, "name", true);
-  if (!is_candidate_name(c.name)) refuse_member("name", c.name, candidate_names);
-  c.version = readable(text_member(json, "version", true));
-  c.precision = choice_member(json, "precision", {"double", "float"});
-  c.runs = choice_member(json, "runs", {"native", "wasm", "script"});
-  c.settings = readable(text_member(json, "settings", true));
-  c.models = readable(text_member(json, "models", false));
+  Description d{};
+  const std::string name = text_member(json, "name", true);
+  if (!is_candidate_name(name)) refuse_member("name", name, candidate_names);
+  copy_text(name.c_str(), d.name);
+  copy_text(text_member(json, "version", true).c_str(), d.version);
+  copy_text(choice_member(json, "precision", {"double", "float"}).c_str(), d.precision);
+  copy_text(choice_member(json, "runs", {"native", "wasm", "script"}).c_str(), d.runs);
+  copy_text(text_member(json, "settings", true).c_str(), d.settings);
+  copy_text(text_member(json, "models", false).c_str(), d.models);
   const Json pairs = json.value("pairs", Json());
-  if (!pairs.is_array() || pairs.empty()) {
+  const auto bad_pairs = [&] {
     refuse_member("pairs", pairs, std::string("a list of ") + pairs_text);
-  }
+  };
+  if (!pairs.is_array() || pairs.empty()) bad_pairs();
   for (const Json& pair : pairs) {
-    const auto kind = pair.is_string() ? kind_of_pair(pair) : std::nullopt;
-    if (!kind) refuse_member("pairs", pairs, std::string("a list of ") + pairs_text);
-    c.supports[*kind] = true;
+    const auto is_named = [&](const char* shape) {
+      return pair == std::string("cylinder-") + shape;
+    };
+    const auto found = std::ranges::find_if(shape_names, is_named);
+    if (found == std::end(shape_names)) bad_pairs();
+    d.supports[found - std::begin(shape_names)] = true;
   }
-  if (json.contains("parameter")) c.parameter = parameter_member(json["parameter"]);
-  const std::string format = choice_member(json, "format", {"frames", "lines"});
-  return {std::move(c), format == "frames" ? Format::frames : Format::lines};
+  if (json.contains("parameter")) read_parameter(json["parameter"], d);
+  d.in_frames = choice_member(json, "format", {"frames", "lines"}) == "frames";
+  return d;
 }
 
-std::string prepare_request(Format format, std::uint64_t ticket,
-                            std::span<const PairOfShapes> pairs) {
-  if (format == Format::frames) {
-    Writer out(Operation::prepare, ticket, pairs.size(), 0);
-    for (const PairOfShapes& p : pairs) {
-      out.put(p.handle);
-      out.put(std::uint32_t{0});
-      out.put(p.threshold);
-      out.put(p.parameter);
-      out.put(p.a);
-      out.put(p.b);
-    }
-    return out.take();
-  }
-  Json entries = Json::array();
-  for (const PairOfShapes& p : pairs) {
-    entries.push_back({{"handle", p.handle},
-                       {"threshold", number(p.threshold)},
-                       {"parameter", number(p.parameter)},
-                       {"a", shape_json(p.a)},
-                       {"b", shape_json(p.b)}});
-  }
-  return request_line("prepare", ticket, std::move(entries));
-}
-
-std::string query_request(Format format, std::uint64_t ticket, std::span<const Poses> poses) {
-  if (format == Format::lines) return request_line("query", ticket, poses_json(poses));
-  Writer out(Operation::query, ticket, poses.size(), 0);
-  for (const Poses& p : poses) put(out, p);
-  return out.take();
-}
-
-std::string time_request(Format format, std::uint64_t ticket, std::uint32_t passes,
-                         std::span<const Poses> poses) {
-  if (format == Format::lines) return request_line("time", ticket, poses_json(poses), passes);
-  Writer out(Operation::time, ticket, poses.size(), passes);
-  for (const Poses& p : poses) put(out, p);
-  return out.take();
-}
-
-std::string release_request(Format format, std::uint64_t ticket,
-                            std::span<const std::uint32_t> handles) {
+Request prepare_request(Format format, std::uint64_t ticket, const PairOfShapes& p) {
+  Request request{format, Operation::prepare, ticket, 1, ""};
   if (format == Format::lines) {
-    return request_line("release", ticket, Json(std::vector(handles.begin(), handles.end())));
+    request.text = request_line(request, Json::array({{{"handle", p.handle},
+                                                       {"threshold", number(p.threshold)},
+                                                       {"parameter", number(p.parameter)},
+                                                       {"a", shape_json(p.a)},
+                                                       {"b", shape_json(p.b)}}}));
+    return request;
   }
-  Writer out(Operation::release, ticket, handles.size(), 0);
-  for (const std::uint32_t handle : handles) out.put(handle);
-  return out.take();
+  Writer out(request);
+  out.put(p.handle);
+  out.put(std::uint32_t{0});
+  out.put(p.threshold);
+  out.put(p.parameter);
+  out.put(p.a);
+  out.put(p.b);
+  request.text = out.take();
+  return request;
 }
 
-std::size_t frame_size(Operation operation, std::uint32_t count) {
+Request query_request(Format format, std::uint64_t ticket, std::span<const Poses> poses,
+                      std::uint32_t passes) {
+  Request request{format, passes > 0 ? Operation::time : Operation::query, ticket,
+                  static_cast<std::uint32_t>(poses.size()), ""};
+  Writer out(request, passes);
+  Json entries = Json::array();
+  for (const Poses& p : poses) {
+    if (format == Format::lines) {
+      entries.push_back({{"handle", p.handle},
+                         {"pose_a", pose_json(p.a)},
+                         {"pose_b", pose_json(p.b)},
+                         {"hint", p.has_previous_normal ? numbers(p.previous_normal) : Json()}});
+      continue;
+    }
+    out.put(p.handle);
+    out.put(std::uint32_t{p.has_previous_normal});
+    out.put(p.a);
+    out.put(p.b);
+    out.put(p.previous_normal);
+  }
+  request.text =
+      format == Format::lines ? request_line(request, std::move(entries), passes) : out.take();
+  return request;
+}
+
+Request release_request(Format format, std::uint64_t ticket,
+                        std::span<const std::uint32_t> handles) {
+  Request request{format, Operation::release, ticket, static_cast<std::uint32_t>(handles.size()),
+                  ""};
+  Writer out(request);
+  for (const std::uint32_t handle : handles) out.put(handle);
+  request.text = format == Format::lines
+                     ? request_line(request, Json(std::vector(handles.begin(), handles.end())))
+                     : out.take();
+  return request;
+}
+
+std::size_t Request::answer_size() const {
+  if (format == Format::lines) return 0;
   switch (operation) {
     case Operation::prepare:
       return header_size + 4 * std::size_t{count};
     case Operation::query:
-      return header_size + answer_size * std::size_t{count};
+      return header_size + answer_bytes * std::size_t{count};
     case Operation::time:
       return header_size + 8;
     case Operation::release:
@@ -459,57 +438,41 @@ std::size_t frame_size(Operation operation, std::uint32_t count) {
   return header_size;
 }
 
-std::vector<bool> read_prepared(Format format, std::uint64_t ticket, std::uint32_t count,
-                                const std::string& text) {
-  std::vector<bool> result;
-  if (format == Format::frames) {
-    Reader in(Operation::prepare, ticket, count, text);
-    for (std::uint32_t i = 0; i < count; ++i) {
-      const auto supported = in.get<std::uint32_t>();
-      if (supported > 1) refuse("it prepared with " + std::to_string(supported));
-      result.push_back(supported == 1);
-    }
-    return result;
+bool read_prepared(const Request& request, const std::string& answer) {
+  if (request.format == Format::frames) {
+    const auto supported = Reader(request, answer).get<std::uint32_t>();
+    if (supported > 1) refuse("it prepared with " + std::to_string(supported));
+    return supported == 1;
   }
-  for (const Json& supported : list_member(answer_line(ticket, text), "supported", count)) {
-    if (!supported.is_boolean()) refuse("its \"supported\" has what is neither true nor false");
-    result.push_back(supported.get<bool>());
-  }
-  return result;
+  const Json supported = list_member(answer_line(request, answer), "supported", 1)[0];
+  if (!supported.is_boolean()) refuse("its \"supported\" has what is neither true nor false");
+  return supported.get<bool>();
 }
 
-std::vector<Answer> read_answers(Format format, std::uint64_t ticket, std::uint32_t count,
-                                 const std::string& text) {
-  std::vector<Answer> result;
-  if (format == Format::frames) {
-    Reader in(Operation::query, ticket, count, text);
-    for (std::uint32_t i = 0; i < count; ++i) result.push_back(get_answer(in));
-    return result;
+Answer read_answer(const Request& request, const std::string& answer) {
+  if (request.format == Format::lines) {
+    return get_answer(list_member(answer_line(request, answer), "answers", 1)[0]);
   }
-  for (const Json& answer : list_member(answer_line(ticket, text), "answers", count)) {
-    result.push_back(get_answer(answer));
-  }
-  return result;
+  Reader in(request, answer);
+  return get_answer(in);
 }
 
-double read_time(Format format, std::uint64_t ticket, std::uint32_t count,
-                 const std::string& text) {
+double read_time(const Request& request, const std::string& answer) {
   const double nanoseconds =
-      format == Format::frames
-          ? Reader(Operation::time, ticket, count, text).get<double>()
-          : number_of(answer_line(ticket, text).value("nanoseconds", Json()), "nanoseconds");
+      request.format == Format::frames
+          ? Reader(request, answer).get<double>()
+          : number_of(answer_line(request, answer).value("nanoseconds", Json()), "nanoseconds");
   if (!std::isfinite(nanoseconds) || nanoseconds < 0) {
     refuse("its time is " + std::to_string(nanoseconds) + " ns");
   }
   return nanoseconds;
 }
 
-void read_released(Format format, std::uint64_t ticket, std::uint32_t count,
-                   const std::string& text) {
-  if (format == Format::frames) {
-    Reader(Operation::release, ticket, count, text);
+void read_released(const Request& request, const std::string& answer) {
+  if (request.format == Format::frames) {
+    Reader(request, answer);
   } else {
-    answer_line(ticket, text);
+    answer_line(request, answer);
   }
 }
 

@@ -1,14 +1,11 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
 #include "candidates/answer.hpp"
-#include "candidates/candidates.hpp"
 #include "candidates/host/exchange.hpp"
 
 namespace touchstone::messages {
@@ -21,24 +18,20 @@ enum class Format { frames, lines };
 
 enum class Operation : std::uint32_t { prepare = 1, query = 2, time = 3, release = 4 };
 
-/// What makes a text no answer to a request: "its ticket is 7 instead of 8".
+/// A text that is no answer to a request: "its ticket is 7 instead of 8".
 struct Garbage : std::runtime_error {
-  using std::runtime_error::runtime_error;
+  explicit Garbage(const std::string& why)
+      : std::runtime_error("wrote what is no answer: " + why) {}
 };
 
 /// A piece of a message in quotes, for people: printable, and short.
 std::string quoted(const std::string& text);
 
-/// What the child says of itself.
-struct Hello {
-  Candidate candidate;  ///< without command
-  Format format;
-};
-
 /// The line, without its end, with which Touchstone begins.
 std::string hello();
-/// Reads the child's line. Throws Garbage that names the member, its value and the remedy.
-Hello read_hello(const std::string& line);
+/// Reads the child's line, in which it describes itself. Throws Garbage that names the member, its
+/// value and the remedy.
+Description read_hello(const std::string& line);
 
 /// Shapes to be prepared under a handle.
 struct PairOfShapes {
@@ -55,28 +48,32 @@ struct Poses {
   double previous_normal[3];
 };
 
-/// The whole request, with its length or the line's end.
-std::string prepare_request(Format format, std::uint64_t ticket,
-                            std::span<const PairOfShapes> pairs);
-std::string query_request(Format format, std::uint64_t ticket, std::span<const Poses> poses);
-std::string time_request(Format format, std::uint64_t ticket, std::uint32_t passes,
-                         std::span<const Poses> poses);
-std::string release_request(Format format, std::uint64_t ticket,
-                            std::span<const std::uint32_t> handles);
+/// A request, with its length or the line's end in its text.
+struct Request {
+  Format format;
+  Operation operation;
+  std::uint64_t ticket;
+  std::uint32_t count;  ///< of entries
+  std::string text;
 
-/// The number of bytes of an answer in frames to `count` entries, with its length.
-std::size_t frame_size(Operation operation, std::uint32_t count);
+  /// Bytes of its answer, with their length; 0: it is a line.
+  std::size_t answer_size() const;
+};
+Request prepare_request(Format format, std::uint64_t ticket, const PairOfShapes& pair);
+/// Of `query`, or of `time` with so many passes.
+Request query_request(Format format, std::uint64_t ticket, std::span<const Poses> poses,
+                      std::uint32_t passes = 0);
+Request release_request(Format format, std::uint64_t ticket,
+                        std::span<const std::uint32_t> handles);
 
-// Readers of answers: of a whole frame, or a line without its end. Throw Garbage.
+// Readers of the answer to a request: a whole frame, or a line without its end. Throw Garbage.
 
-/// Which of the pairs are supported.
-std::vector<bool> read_prepared(Format format, std::uint64_t ticket, std::uint32_t count,
-                                const std::string& text);
-std::vector<Answer> read_answers(Format format, std::uint64_t ticket, std::uint32_t count,
-                                 const std::string& text);
+/// Is the pair supported?
+bool read_prepared(const Request& request, const std::string& answer);
+/// Of a query of one entry.
+Answer read_answer(const Request& request, const std::string& answer);
 /// Nanoseconds of all passes: finite and not negative.
-double read_time(Format format, std::uint64_t ticket, std::uint32_t count, const std::string& text);
-void read_released(Format format, std::uint64_t ticket, std::uint32_t count,
-                   const std::string& text);
+double read_time(const Request& request, const std::string& answer);
+void read_released(const Request& request, const std::string& answer);
 
 }  // namespace touchstone::messages

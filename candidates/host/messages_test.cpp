@@ -24,14 +24,14 @@ std::string hello_with(const std::string& from, const std::string& to) {
 }
 
 TEST(Hello, IsReadAndUnknownMembersAreIgnored) {
-  const Hello hello = read_hello(good_hello);
-  EXPECT_EQ(hello.format, Format::frames);
-  EXPECT_EQ(hello.candidate.name, "mine");
-  EXPECT_EQ(hello.candidate.precision, "float");
-  EXPECT_EQ(hello.candidate.runs, "wasm");
-  EXPECT_TRUE(hello.candidate.supports[TS_BOX]);
-  EXPECT_FALSE(hello.candidate.supports[TS_PLANE]);
-  EXPECT_FALSE(hello.candidate.parameter);
+  const Description hello = read_hello(good_hello);
+  EXPECT_TRUE(hello.in_frames);
+  EXPECT_STREQ(hello.name, "mine");
+  EXPECT_STREQ(hello.precision, "float");
+  EXPECT_STREQ(hello.runs, "wasm");
+  EXPECT_TRUE(hello.supports[TS_BOX]);
+  EXPECT_FALSE(hello.supports[TS_PLANE]);
+  EXPECT_FALSE(hello.has_parameter);
 }
 
 TEST(Hello, IsRefusedWithTheMemberTheValueAndTheRemedy) {
@@ -75,8 +75,8 @@ T at(const std::string& bytes, std::size_t offset) {
 }
 
 TEST(Frames, LieAsSpecified) {
-  const PairOfShapes pairs[] = {{7, 0.25, 16, {TS_CYLINDER, {0.5, 1}}, {TS_PLANE, {0, 0, 1, -2}}}};
-  const std::string prepare = prepare_request(Format::frames, 3, pairs);
+  const PairOfShapes pair{7, 0.25, 16, {TS_CYLINDER, {0.5, 1}}, {TS_PLANE, {0, 0, 1, -2}}};
+  const std::string prepare = prepare_request(Format::frames, 3, pair).text;
   ASSERT_EQ(prepare.size(), 24u + 104);
   EXPECT_EQ(at<std::uint32_t>(prepare, 0), 20u + 104);
   EXPECT_EQ(at<std::uint32_t>(prepare, 4), 1u);
@@ -92,23 +92,24 @@ TEST(Frames, LieAsSpecified) {
   EXPECT_EQ(at<double>(prepare, 96 + 24), -2);
 
   const Poses poses[] = {some_poses(7), some_poses(8)};
-  const std::string query = query_request(Format::frames, 4, poses);
+  const std::string query = query_request(Format::frames, 4, poses).text;
   ASSERT_EQ(query.size(), 24u + 2 * 144);
   EXPECT_EQ(at<std::uint32_t>(query, 24 + 144), 8u);
   EXPECT_EQ(at<std::uint32_t>(query, 28), 1u);
   EXPECT_EQ(at<double>(query, 32), 1);
   EXPECT_EQ(at<double>(query, 32 + 56 + 16), 1e300);
   EXPECT_EQ(at<double>(query, 32 + 112 + 16), 1);
-  EXPECT_EQ(at<std::uint32_t>(time_request(Format::frames, 5, 640, poses), 20), 640u);
+  EXPECT_EQ(at<std::uint32_t>(query_request(Format::frames, 5, poses, 640).text, 20), 640u);
   const std::uint32_t handles[] = {7, 8};
-  EXPECT_EQ(release_request(Format::frames, 6, handles).size(), 24u + 8);
+  EXPECT_EQ(release_request(Format::frames, 6, handles).text.size(), 24u + 8);
 }
 
 TEST(Lines, HoldDoublesExactly) {
   Poses poses = some_poses(7);
   poses.a.position[0] = 0.1 + 0.2;
   poses.has_previous_normal = false;
-  const std::string line = query_request(Format::lines, 4, {&poses, 1});
+  const Request request = query_request(Format::lines, 4, {&poses, 1});
+  const std::string& line = request.text;
   EXPECT_THAT(line, HasSubstr("0.30000000000000004"));
   EXPECT_THAT(line, HasSubstr("\"hint\":null"));
   EXPECT_EQ(line.find('\n'), line.size() - 1);
@@ -116,12 +117,14 @@ TEST(Lines, HoldDoublesExactly) {
       R"({"ticket": 4, "answers": [{"status": "contact", "signed_distance": -0.30000000000000004,)"
       R"( "normal": ["nan", "inf", "-inf"], "points": [{"position": [1, 2, 3], "normal": [0, 0, 1],)"
       R"( "depth": 5e-324}]}]})";
-  const Answer read = read_answers(Format::lines, 4, 1, answer).front();
+  const Answer read = read_answer(request, answer);
   EXPECT_EQ(read.signed_distance, -(0.1 + 0.2));
   EXPECT_TRUE(std::isnan(read.normal[0]));
   EXPECT_EQ(read.normal[2], -std::numeric_limits<double>::infinity());
   EXPECT_EQ(read.points[0].depth, 5e-324);
 }
+
+const Request a_query{Format::lines, Operation::query, 4, 1, ""};
 
 TEST(Lines, NestedTooDeeplyAreRefused) {
   const auto nested = [](std::size_t levels) {
@@ -130,12 +133,12 @@ TEST(Lines, NestedTooDeeplyAreRefused) {
   };
   for (const std::size_t levels :
        {std::size_t{64}, std::size_t{100'000}, std::size_t{10'000'000}}) {
-    EXPECT_THAT([&] { read_answers(Format::lines, 4, 1, nested(levels)); },
+    EXPECT_THAT([&] { read_answer(a_query, nested(levels)); },
                 ThrowsMessage<Garbage>(HasSubstr("more than 64 levels deep")))
         << levels;
   }
   // One less is within the limit, and no answer.
-  EXPECT_THAT([&] { read_answers(Format::lines, 4, 1, nested(63)); },
+  EXPECT_THAT([&] { read_answer(a_query, nested(63)); },
               ThrowsMessage<Garbage>(testing::Not(HasSubstr("levels"))));
 }
 
@@ -178,14 +181,17 @@ class Fuzz {
 };
 
 TEST(Messages, AHundredThousandBrokenOnesAreReadOrRefused) {
-  std::string frame(frame_size(Operation::query, 2), '\0');
-  const std::uint32_t head[] = {static_cast<std::uint32_t>(frame.size() - 4), 2, 4, 0, 2, 0};
+  const Request in_frames{Format::frames, Operation::query, 4, 1, ""},
+      prepares{Format::lines, Operation::prepare, 4, 1, ""},
+      times{Format::lines, Operation::time, 4, 1, ""};
+  std::string frame(in_frames.answer_size(), '\0');
+  const std::uint32_t head[] = {static_cast<std::uint32_t>(frame.size() - 4), 2, 4, 0, 1, 0};
   std::memcpy(frame.data(), head, sizeof head);
   const std::string line =
       R"({"ticket": 4, "answers": [{"status": "contact", "signed_distance": 1, "normal": [0, 0, 1],)"
-      R"( "points": [{"position": [1, 2, 3], "normal": [0, 0, 1], "depth": 5}]}, {"status": "none"}]})";
-  ASSERT_EQ(read_answers(Format::frames, 4, 2, frame).size(), 2u);
-  ASSERT_EQ(read_answers(Format::lines, 4, 2, line).size(), 2u);
+      R"( "points": [{"position": [1, 2, 3], "normal": [0, 0, 1], "depth": 5}]}]})";
+  ASSERT_EQ(read_answer(in_frames, frame).status, TS_CONTACT);
+  ASSERT_EQ(read_answer(a_query, line).points[0].depth, 5);
 
   Fuzz fuzz(1);
   int read = 0, refused = 0;
@@ -200,15 +206,11 @@ TEST(Messages, AHundredThousandBrokenOnesAreReadOrRefused) {
   };
   for (int i = 0; i < 20000; ++i) {
     const std::string bytes = fuzz.mutated(frame), text = fuzz.mutated(line);
-    attempt([&] { read_answers(Format::frames, 4, 2, bytes); });
-    attempt([&] { read_answers(Format::lines, 4, 2, text); });
+    attempt([&] { read_answer(in_frames, bytes); });
+    attempt([&] { read_answer(a_query, text); });
     attempt([&] { read_hello(fuzz.mutated(good_hello)); });
-    attempt([&] {
-      read_prepared(Format::lines, 4, 1, fuzz.mutated(R"({"ticket":4,"supported":[true]})"));
-    });
-    attempt([&] {
-      read_time(Format::lines, 4, 1, fuzz.mutated(R"({"ticket":4,"nanoseconds":12.5})"));
-    });
+    attempt([&] { read_prepared(prepares, fuzz.mutated(R"({"ticket":4,"supported":[true]})")); });
+    attempt([&] { read_time(times, fuzz.mutated(R"({"ticket":4,"nanoseconds":12.5})")); });
   }
   EXPECT_EQ(read + refused, 100000);
   EXPECT_GT(read, 2000);

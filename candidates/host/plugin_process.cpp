@@ -2,14 +2,17 @@
 #include "candidates/host/plugin_process.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <chrono>
 #include <cstring>
 #include <fcntl.h>
 #include <poll.h>
+#include <spawn.h>
 #include <sys/mman.h>
 #include <sys/socket.h>
 #include <unistd.h>
+#include <utility>
 
 #include "candidates/host/exchange.hpp"
 #include "candidates/host/guard.hpp"
@@ -46,12 +49,25 @@ int poll_through(pollfd& polled, std::chrono::milliseconds time) {
   return ready;
 }
 
+/// Found once: while a folder is built anew, its files come and go.
+const std::string& host_program() {
+  static const std::string program = standard_folder() / "touchstone-host";
+  return program;
+}
+
+NoHost no_host(const std::string& why) {
+  return NoHost("touchstone-host", in_quotes(host_program()),
+                "must be a program that can be started, but that says \"" + why +
+                    "\"; build or install Touchstone again");
+}
+
 }  // namespace
 
-PluginProcess::PluginProcess(const std::filesystem::path& file, std::chrono::milliseconds loading)
-    : file_(file),
+PluginProcess::PluginProcess()
+    : text_(memfd_create("candidate", MFD_CLOEXEC)),
       questions_file_(shared_file(sizeof(Questions))),
       exchange_file_(shared_file(sizeof(Exchange))) {
+  if (text_ < 0 || fcntl(text_, F_SETFL, O_APPEND) < 0) fail("memfd_create");
   questions_ = new (map(questions_file_, sizeof(Questions), PROT_READ | PROT_WRITE)) Questions{};
   exchange_ = new (map(exchange_file_, sizeof(Exchange), PROT_READ | PROT_WRITE)) Exchange{};
   // Each plug-in's process maps its own memory and does not inherit that of others.
@@ -59,24 +75,101 @@ PluginProcess::PluginProcess(const std::filesystem::path& file, std::chrono::mil
   madvise(exchange_, sizeof(Exchange), MADV_DONTFORK);
   // From here on no process can map the questions for writing.
   if (fcntl(questions_file_, F_ADD_SEALS, F_SEAL_FUTURE_WRITE) < 0) fail("fcntl");
-  try {
-    start(loading);
-  } catch (...) {
-    release_memory();
-    throw;
+}
+
+PluginProcess::PluginProcess(const std::filesystem::path& file, std::chrono::milliseconds loading)
+    : PluginProcess() {
+  start_host({file.string()});
+  if (const std::string why = describe(loading); !why.empty()) {
+    throw InvalidInput("--load", in_quotes(file.string()),
+                       "must be a plug-in made with candidate.h, but " + why);
   }
+  for (std::size_t i = 0; i < candidates_.size(); ++i) {
+    candidates_[i].origin = Candidate::Plugin{file, static_cast<int>(i)};
+  }
+}
+
+PluginProcess::PluginProcess(const Candidate::Command& command, std::chrono::milliseconds loading)
+    : PluginProcess() {
+  start_host({command.line, command.folder.string()});
+  if (std::string why = describe(loading); !why.empty()) {
+    if (!last_line().empty()) why += "; standard error: " + readable(last_line());
+    throw InvalidInput(
+        "--candidate-command", in_quotes(command.line),
+        "must be a command that speaks as docs/process-candidates.md says, not as this one: " +
+            why);
+  }
+  auto& origin = std::get<Candidate::Command>(candidates_.front().origin);
+  origin.line = command.line;
+  origin.folder = command.folder;
 }
 
 PluginProcess::~PluginProcess() {
   stop();
-  release_memory();
-}
-
-void PluginProcess::release_memory() {
-  for (const int file : {questions_file_, exchange_file_}) close(file);
+  for (const int file : {text_, questions_file_, exchange_file_}) close(file);
   if (owner_ != getpid()) return;
   munmap(questions_, sizeof(Questions));
   munmap(exchange_, sizeof(Exchange));
+}
+
+void PluginProcess::stop() {
+  if (guard_ > 0 && owner_ == getpid()) end_guard(guard_);
+  guard_ = -1;
+  // Not earlier: a routine that waits for the end of the connection would continue.
+  if (socket_ >= 0) close(std::exchange(socket_, -1));
+}
+
+std::string PluginProcess::last_line() const { return touchstone::last_line(text_); }
+
+void PluginProcess::clear_text() const {
+  if (ftruncate(text_, 0) != 0) fail("ftruncate");
+}
+
+void PluginProcess::start_host(std::vector<std::string> arguments) {
+  int ends[2];
+  if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) fail("socketpair");
+  socket_ = ends[0];
+  // Messages carry their sender's id as seen in our own PID namespace.
+  const int yes = 1;
+  setsockopt(socket_, SOL_SOCKET, SO_PASSCRED, &yes, sizeof yes);
+  const int nothing = open("/dev/null", O_RDONLY | O_CLOEXEC);
+  // Its descriptors from standard input on.
+  const std::array files = {nothing, text_, text_, ends[1], questions_file_, exchange_file_};
+
+  // First out of each other's way.
+  constexpr int behind = static_cast<int>(files.size());
+  std::vector<int> moved;
+  for (const int file : files) moved.push_back(fcntl(file, F_DUPFD_CLOEXEC, behind));
+  const bool are_moved = std::ranges::all_of(moved, [](int file) { return file >= 0; });
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  for (int i = 0; i < behind; ++i) {
+    posix_spawn_file_actions_adddup2(&actions, moved[static_cast<std::size_t>(i)], i);
+  }
+  posix_spawn_file_actions_addclosefrom_np(&actions, behind);
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setpgroup(&attributes, 0);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+
+  std::string program = host_program(), setting = std::string(bind_now) + "=1";
+  arguments.push_back(std::to_string(getpid()));
+  std::vector<char*> words = {program.data()}, environment = {setting.data()};
+  for (std::string& argument : arguments) words.push_back(argument.data());
+  for (char** each = environ; *each; ++each) environment.push_back(*each);
+  words.push_back(nullptr);
+  environment.push_back(nullptr);
+  const int error = are_moved ? posix_spawn(&guard_, program.c_str(), &actions, &attributes,
+                                            words.data(), environment.data())
+                              : EMFILE;
+  posix_spawnattr_destroy(&attributes);
+  posix_spawn_file_actions_destroy(&actions);
+  for (const int each : moved) close(each);
+  for (const int each : {nothing, ends[1]}) close(each);
+  if (error == 0) return;
+  guard_ = -1;
+  stop();
+  throw no_host(std::strerror(error));
 }
 
 PluginProcess::Received PluginProcess::receive(void* message, std::size_t size,
@@ -130,16 +223,7 @@ bool PluginProcess::send(const SessionCommand& command) const {
   return ::send(socket_, &command, sizeof command, MSG_NOSIGNAL) == sizeof command;
 }
 
-void PluginProcess::start(std::chrono::milliseconds loading) {
-  const int nothing = open("/dev/null", O_RDONLY | O_CLOEXEC);
-  start_host({file_.string()}, {nothing, text_, text_, questions_file_, exchange_file_});
-  close(nothing);
-
-  const auto refuse = [&](const std::string& why) {
-    stop();
-    throw InvalidInput("--load", in_quotes(file_.string()),
-                       "must be a plug-in made with candidate.h, but " + why);
-  };
+std::string PluginProcess::describe(std::chrono::milliseconds loading) {
   const auto told = [](const Reply& r) {
     return r.kind == Reply::described || r.kind == Reply::refused || r.kind == Reply::no_host ||
            r.kind == Reply::gone;
@@ -150,33 +234,34 @@ void PluginProcess::start(std::chrono::milliseconds loading) {
   do {
     heard = wait_for(&reply, sizeof reply, until(end));
   } while (heard && !told(reply));
-  if (!heard && Clock::now() < end) refuse("its process was not there after loading");
+  if (!heard && Clock::now() < end) return "its process was not there after loading";
   if (!heard) {
-    refuse("nothing was heard of it within " + std::to_string(loading.count()) + " ms of loading");
+    return "nothing was heard of it within " + std::to_string(loading.count()) + " ms of loading";
   }
-  if (reply.kind == Reply::no_host) {  // no fault of the plug-in
-    stop();
-    throw no_host(reply.text);
-  }
+  if (reply.kind == Reply::no_host) throw no_host("it is of another build");
   if (reply.kind == Reply::gone) {
-    refuse("its process was not there after loading: " + how_it_ended(reply.value));
+    return "its process was not there after loading: " + how_it_ended(reply.value);
   }
-  if (reply.kind != Reply::described) refuse("it " + readable(reply.text));
-  candidates_.clear();
+  if (reply.kind == Reply::refused) return "it " + readable(text_of(exchange_->text));
   for (int i = 0; i < reply.value; ++i) {
     Description d;
-    if (!wait_for(&d, sizeof d, until(end))) refuse("it could not be described");
+    if (!wait_for(&d, sizeof d, until(end))) return "it could not be described";
     Candidate& c = candidates_.emplace_back();
     c.name = c.family = d.name;
     c.version = readable(d.version);
     c.settings = readable(d.settings);
     c.models = readable(d.models);
-    c.origin = Candidate::Plugin{file_, i};
     std::copy(std::begin(d.supports), std::end(d.supports), c.supports.begin());
     is_unforked_ = d.unforked;
+    if (d.runs[0] != '\0') {  // a command
+      c.precision = d.precision;
+      c.runs = d.runs;
+      c.origin = Candidate::Command{"", "", d.in_frames};
+    }
     if (d.has_parameter)
       c.parameter = {readable(d.meaning), d.min, d.max, d.usual, d.whole, d.bare};
   }
+  return "";
 }
 
 }  // namespace touchstone

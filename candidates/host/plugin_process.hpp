@@ -3,24 +3,36 @@
 #include <chrono>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <sys/types.h>
+#include <unistd.h>
 #include <vector>
 
 #include "candidates/candidates.hpp"
 #include "candidates/host/exchange.hpp"
-#include "candidates/host/host_process.hpp"
+#include "reference/invalid_input.hpp"
 
 namespace touchstone {
 
-/// A plug-in, loaded in a process of its own: its symbols, global state and crashes affect neither
-/// other plug-ins nor this process. After any failure it is stopped, and started again for the next
-/// question.
-class PluginProcess : public HostProcess {
+/// What runs candidates cannot be started: no fault of a candidate, none of which can be asked.
+struct NoHost : InvalidInput {
+  using InvalidInput::InvalidInput;
+};
+
+/// A process of the program touchstone-host that has loaded a plug-in: its symbols, global state
+/// and crashes affect neither other plug-ins nor this process. It stands behind a guard
+/// (guard.hpp), which ends all that it starts, and has no descriptors of ours. A command is the one
+/// candidate of a plug-in that is never forked.
+class PluginProcess {
  public:
-  /// Time allowed for loading it, which may read libraries from a cold disk.
+  /// Time allowed for loading it, which may read libraries from a cold disk; a command may compile
+  /// itself, or load a model.
   static constexpr std::chrono::milliseconds loading_time = std::chrono::seconds(30);
-  /// Loads it. Throws InvalidInput (field "--load") when it cannot be loaded.
+  /// Loads it. Throws InvalidInput (field "--load" or "--candidate-command") when it cannot be
+  /// loaded.
   explicit PluginProcess(const std::filesystem::path& file,
+                         std::chrono::milliseconds loading = loading_time);
+  explicit PluginProcess(const Candidate::Command& command,
                          std::chrono::milliseconds loading = loading_time);
   ~PluginProcess();
   PluginProcess(const PluginProcess&) = delete;
@@ -32,8 +44,12 @@ class PluginProcess : public HostProcess {
   Questions& questions() const { return *questions_; }
   Exchange& exchange() const { return *exchange_; }
 
-  /// Loads the plug-in and reads its descriptions. Throws as the constructor does.
-  void start(std::chrono::milliseconds loading = loading_time);
+  bool runs() const { return guard_ > 0; }
+  /// Ends it, with all processes that it has started.
+  void stop();
+  /// The last line that it printed.
+  std::string last_line() const;
+  void clear_text() const;
 
   /// Result of waiting for a message.
   enum class Received { message, noise, nothing, end };
@@ -47,17 +63,26 @@ class PluginProcess : public HostProcess {
   bool send(const SessionCommand& command) const;
 
  private:
+  /// Starts nothing.
+  PluginProcess();
+  /// Starts the program, whose arguments come before our process's id.
+  void start_host(std::vector<std::string> arguments);
+  /// Waits for its candidates. Returns why it cannot be used; empty if they are described.
+  std::string describe(std::chrono::milliseconds loading);
   /// Receives one message, ignoring noise.
   bool wait_for(void* message, std::size_t size, std::chrono::milliseconds time,
                 pid_t* sender = nullptr) const;
-  void release_memory();
 
-  std::filesystem::path file_;
+  /// The process that made this. A candidate that calls exit runs our destructors in its own
+  /// process, where they must do nothing.
+  const pid_t owner_ = getpid();
+  pid_t guard_ = -1;  ///< its first process, which guards the others; -1: there is none
+  int socket_ = -1;
+  int text_, questions_file_, exchange_file_;  ///< in memory; the first is what it prints
   std::vector<Candidate> candidates_;
   bool is_unforked_ = false;
-  int questions_file_ = -1, exchange_file_ = -1;
-  Questions* questions_ = nullptr;
-  Exchange* exchange_ = nullptr;
+  Questions* questions_;
+  Exchange* exchange_;
 };
 
 }  // namespace touchstone

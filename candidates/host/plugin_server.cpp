@@ -1,11 +1,11 @@
-// The plug-in's side: the server that loads it, describes it, and forks sessions of it.
+// The plug-in's side: the server that loads it or starts a command, describes it, and forks
+// sessions of it.
 #include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <dlfcn.h>
 #include <exception>
 #include <fcntl.h>
-#include <optional>
+#include <memory>
 #include <sched.h>
 #include <signal.h>
 #include <stdexcept>
@@ -13,12 +13,12 @@
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
-#include <type_traits>
 #include <unistd.h>
 #include <vector>
 
 #include "candidates/host/exchange.hpp"
 #include "candidates/host/guard.hpp"
+#include "candidates/host/spoken_command.hpp"
 
 namespace touchstone {
 namespace {
@@ -37,41 +37,77 @@ struct CandidateOfVersion3 {
   decltype(ts_candidate::model_distance) model_distance;
 };
 
-/// A plug-in of this interface version, whatever it was made for.
+/// A plug-in of this interface version, whatever it was made for, or a command.
 struct LoadedPlugin {
   std::vector<ts_candidate> candidates;
+  std::vector<Description> descriptions;
   void (*after_fork)() = nullptr;
-  bool unforked = false;
+  std::unique_ptr<SpokenCommand> spoken;
 };
 
+const CandidateOfVersion3& given_back(void* context) {
+  return *static_cast<const CandidateOfVersion3*>(context);
+}
+
 ts_candidate of_version_3(const CandidateOfVersion3& old) {
-  const auto given_back = [](void* context) {
-    return static_cast<const CandidateOfVersion3*>(context);
-  };
-  static_assert(std::is_empty_v<decltype(given_back)>);
-  ts_candidate c{old.name,
-                 old.version,
-                 old.settings,
-                 old.models,
-                 old.parameter,
-                 nullptr,
-                 nullptr,
-                 old.query,
-                 old.release,
-                 old.model_distance,
-                 const_cast<CandidateOfVersion3*>(&old)};
+  ts_candidate c{};
+  c.name = old.name;
+  c.version = old.version;
+  c.settings = old.settings;
+  c.models = old.models;
+  c.parameter = old.parameter;
+  c.query = old.query;
+  c.release = old.release;
+  c.model_distance = old.model_distance;
+  c.context = const_cast<CandidateOfVersion3*>(&old);
   if (old.supports) {
     c.supports = [](void* context, ts_shape_kind other) {
-      return decltype(given_back){}(context)->supports(other);
+      return given_back(context).supports(other);
     };
   }
   if (old.prepare) {
     c.prepare = [](void* context, const ts_shape* a, const ts_shape* b, double threshold,
                    double parameter) {
-      return decltype(given_back){}(context)->prepare(a, b, threshold, parameter);
+      return given_back(context).prepare(a, b, threshold, parameter);
     };
   }
   return c;
+}
+
+Description describe(const ts_candidate& c) {
+  const std::string name = c.name ? c.name : "";
+  if (!is_candidate_name(name)) {
+    throw std::runtime_error(std::string("has a candidate whose name is not of ") +
+                             candidate_names);
+  }
+  if (!c.version || !c.settings || !c.supports || !c.prepare || !c.query || !c.release) {
+    throw std::runtime_error(std::string("leaves something out in the candidate ") + c.name);
+  }
+  if (const ts_parameter* const p = c.parameter) {
+    if (!p->meaning || !(p->least <= p->usual && p->usual <= p->most)) {
+      throw std::runtime_error("gives the candidate " + name +
+                               " a parameter without meaning or whose usual value is not between "
+                               "its least and most");
+    }
+  }
+  Description d{};
+  copy_text(c.name, d.name);
+  copy_text(c.version, d.version);
+  copy_text(c.settings, d.settings);
+  copy_text(c.models, d.models);
+  if (c.parameter) {
+    d.has_parameter = true;
+    copy_text(c.parameter->meaning, d.meaning);
+    d.min = c.parameter->least;
+    d.max = c.parameter->most;
+    d.usual = c.parameter->usual;
+    d.whole = c.parameter->whole != 0;
+    d.bare = c.parameter->bare != 0;
+  }
+  for (const ts_shape_kind kind : {TS_CYLINDER, TS_PLANE, TS_SPHERE, TS_CAPSULE, TS_BOX}) {
+    d.supports[kind] = c.supports(c.context, kind) != 0;
+  }
+  return d;
 }
 
 LoadedPlugin load(const char* file) {
@@ -94,56 +130,22 @@ LoadedPlugin load(const char* file) {
                              std::to_string(max_candidates));
   }
   LoadedPlugin result;
-  if (is_old) {
-    const auto* const old = reinterpret_cast<const CandidateOfVersion3*>(plugin->candidates);
-    for (int i = 0; i < plugin->count; ++i) result.candidates.push_back(of_version_3(old[i]));
-    return result;
+  const auto* const old = reinterpret_cast<const CandidateOfVersion3*>(plugin->candidates);
+  for (int i = 0; i < plugin->count; ++i) {
+    result.candidates.push_back(is_old ? of_version_3(old[i]) : plugin->candidates[i]);
+    result.descriptions.push_back(describe(result.candidates.back()));
+    result.descriptions.back().unforked = !is_old && plugin->unforked != 0;
   }
-  result.candidates.assign(plugin->candidates, plugin->candidates + plugin->count);
-  result.after_fork = plugin->after_fork;
-  result.unforked = plugin->unforked != 0;
+  if (!is_old) result.after_fork = plugin->after_fork;
   return result;
 }
 
-template <std::size_t size>
-void copy(const char* from, char (&to)[size]) {
-  std::snprintf(to, size, "%s", from ? from : "");
-}
-
-Description describe(const ts_candidate& c) {
-  const std::string name = c.name ? c.name : "";
-  if (!is_candidate_name(name)) {
-    throw std::runtime_error(std::string("has a candidate whose name is not of ") +
-                             candidate_names);
-  }
-  if (!c.version || !c.settings || !c.supports || !c.prepare || !c.query || !c.release) {
-    throw std::runtime_error(std::string("leaves something out in the candidate ") + c.name);
-  }
-  if (const ts_parameter* const p = c.parameter) {
-    if (!p->meaning || !(p->least <= p->usual && p->usual <= p->most)) {
-      throw std::runtime_error("gives the candidate " + name +
-                               " a parameter without meaning or whose usual value is not between "
-                               "its least and most");
-    }
-  }
-  Description d{};
-  copy(c.name, d.name);
-  copy(c.version, d.version);
-  copy(c.settings, d.settings);
-  copy(c.models, d.models);
-  if (c.parameter) {
-    d.has_parameter = true;
-    copy(c.parameter->meaning, d.meaning);
-    d.min = c.parameter->least;
-    d.max = c.parameter->most;
-    d.usual = c.parameter->usual;
-    d.whole = c.parameter->whole != 0;
-    d.bare = c.parameter->bare != 0;
-  }
-  for (const ts_shape_kind kind : {TS_CYLINDER, TS_PLANE, TS_SPHERE, TS_CAPSULE, TS_BOX}) {
-    d.supports[kind] = c.supports(c.context, kind) != 0;
-  }
-  return d;
+LoadedPlugin load(const char* line, const char* folder) {
+  LoadedPlugin result;
+  result.spoken = std::make_unique<SpokenCommand>(line, folder);
+  result.candidates = {result.spoken->candidate()};
+  result.descriptions = {result.spoken->description()};
+  return result;
 }
 
 /// Bytes of this process's address space.
@@ -181,39 +183,40 @@ bool others_run() {
 
 }  // namespace
 
-void serve_plugin(const char* file, int socket, const Questions& questions, Exchange& exchange) {
-  become_plain_process(1 << 24);  // limits what it prints, too
+void serve_plugin(const char* file, const char* folder, int socket, const Questions& questions,
+                  Exchange& exchange) {
+  constexpr unsigned long max_file = 1ul << 24;  // limits what it prints, too
+  become_plain_process(folder ? SpokenCommand::max_file : max_file);
   // Processes that a session leaves behind are reparented to this one, which so learns of them.
-  prctl(PR_SET_CHILD_SUBREAPER, 1);
+  if (!folder) prctl(PR_SET_CHILD_SUBREAPER, 1);
 
   LoadedPlugin plugin;
+  const auto refuse = [&](const char* why) {
+    copy_text(why, exchange.text);
+    reply(socket, Reply::refused, 0, 0);
+    _exit(1);
+  };
   try {
-    plugin = load(file);
-    std::vector<Description> descriptions;
-    for (const ts_candidate& candidate : plugin.candidates) {
-      descriptions.push_back(describe(candidate));
-      descriptions.back().unforked = plugin.unforked;
-    }
-    reply(socket, Reply::described, 0, static_cast<int>(descriptions.size()));
-    for (const Description& d : descriptions) send(socket, &d, sizeof d);
+    plugin = folder ? load(file, folder) : load(file);
   } catch (const std::exception& e) {
-    reply(socket, Reply::refused, 0, 0, e.what());
-    _exit(1);
+    refuse(e.what());
   } catch (...) {
-    reply(socket, Reply::refused, 0, 0, "threw something that is no exception");
-    _exit(1);
+    refuse("threw something that is no exception");
   }
+  reply(socket, Reply::described, 0, static_cast<int>(plugin.descriptions.size()));
+  for (const Description& d : plugin.descriptions) send(socket, &d, sizeof d);
   const rlim_t loaded = address_space();  // every session begins with this much
   for (;;) {
     const SessionCommand command = receive(socket);
     if (command.kind != SessionCommand::begin) continue;  // meant for a session that has died
     const auto serve = [&] {
-      bound_memory(loaded + command.memory);
+      if (!plugin.spoken) bound_memory(loaded + command.memory);
       if (plugin.after_fork) plugin.after_fork();
-      serve_session(plugin.candidates[static_cast<std::size_t>(command.index)], command, socket,
-                    questions, exchange);
+      if (plugin.spoken && command.warm) plugin.spoken->warm_up(command.parameter);
+      serve_session(plugin.candidates[static_cast<std::size_t>(command.index)], plugin.spoken.get(),
+                    command, socket, questions, exchange);
     };
-    if (plugin.unforked) serve();
+    if (plugin.descriptions[0].unforked) serve();
     const pid_t pid = fork();
     if (pid == 0) {
       prctl(PR_SET_PDEATHSIG, SIGKILL);  // if this process dies first, receive() ends the session
@@ -225,7 +228,7 @@ void serve_plugin(const char* file, int socket, const Questions& questions, Exch
       continue;
     }
     const int status = wait_for(pid);
-    reply(socket, Reply::ended, command.ticket, status, "", others_run());
+    reply(socket, Reply::ended, command.ticket, status, others_run());
   }
 }
 

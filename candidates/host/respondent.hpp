@@ -33,10 +33,9 @@ struct NoAnswer {
 class Respondent {
  public:
   virtual ~Respondent() = default;
-  /// How many questions it may be asked at once.
-  virtual std::size_t batch() const { return batch_size; }
-  /// Fills the answers to these questions in their order, all of them unless it fails. `release`:
-  /// shapes are released once they are not needed, instead of being kept for later questions.
+  /// Fills the answers to these questions, at most batch_size, in their order, all of them unless
+  /// it fails. `release`: shapes are released once they are not needed, instead of being kept for
+  /// later questions.
   virtual std::optional<NoAnswer> ask(std::span<const Asked> asked, bool release,
                                       std::span<std::optional<Answer>> answers) = 0;
   /// Learns that a failure stands for the answer to its question.

@@ -18,6 +18,7 @@
 
 #include "candidates/host/exchange.hpp"
 #include "candidates/host/routine.hpp"
+#include "candidates/host/spoken_command.hpp"
 
 namespace touchstone {
 namespace {
@@ -139,8 +140,8 @@ ts_answer* make_answer() {
 /// dies.
 class Session {
  public:
-  Session(const ts_candidate& candidate, const SessionCommand& begin, int socket,
-          const Questions& questions, Exchange& exchange);
+  Session(const ts_candidate& candidate, SpokenCommand* spoken, const SessionCommand& begin,
+          int socket, const Questions& questions, Exchange& exchange);
   [[noreturn]] void serve();
 
  private:
@@ -162,6 +163,8 @@ class Session {
   double tail() const;  ///< for Exchange::tail_nanoseconds
 
   Routine routine_;
+  SpokenCommand* spoken_;  ///< null: a plug-in
+  double parameter_;
   int socket_;
   const Questions& asked_;
   Exchange& exchange_;
@@ -173,9 +176,11 @@ class Session {
   double clock_ = 0;  ///< nanoseconds that reading the clock takes, likewise
 };
 
-Session::Session(const ts_candidate& candidate, const SessionCommand& begin, int socket,
-                 const Questions& questions, Exchange& exchange)
+Session::Session(const ts_candidate& candidate, SpokenCommand* spoken, const SessionCommand& begin,
+                 int socket, const Questions& questions, Exchange& exchange)
     : routine_(candidate, begin.parameter),
+      spoken_(spoken),
+      parameter_(begin.parameter),
       socket_(socket),
       asked_(questions),
       exchange_(exchange),
@@ -190,10 +195,10 @@ void Session::serve() {
     try {
       obey(command);
     } catch (const std::exception& e) {
-      std::snprintf(exchange_.thrown, sizeof exchange_.thrown, "%s", e.what());
+      copy_text(e.what(), exchange_.text);
       _exit(exit_thrown);
     } catch (...) {
-      std::snprintf(exchange_.thrown, sizeof exchange_.thrown, "something that is no exception");
+      copy_text("something that is no exception", exchange_.text);
       _exit(exit_thrown);
     }
     if (getpid() != own) _exit(0);  // a fork made by the candidate that returned like its parent
@@ -213,9 +218,10 @@ void Session::obey(const SessionCommand& command) {
       }
       return;
     case SessionCommand::warm_up:
-      return warm_up();
+      if (!spoken_) return warm_up();
+      return spoken_->prepare_timing(questions_, parameter_, [&] { ++exchange_.progress; });
     case SessionCommand::time:
-      return time();
+      return spoken_ ? spoken_->time(command.count, exchange_) : time();
     case SessionCommand::begin:
     case SessionCommand::finish:
       _exit(0);
@@ -286,7 +292,7 @@ void Session::time() {
   const double singly = is_long ? query_each() : 0;
   const auto instructions = counter_->stop();
   if (!is_long) query_each();
-  const auto queries = static_cast<double>(passes_ * kept_.size());
+  const auto queries = exchange_.queries = static_cast<double>(passes_ * kept_.size());
   exchange_.nanoseconds = (is_long ? singly : together) / queries;
   exchange_.instructions = instructions ? static_cast<double>(*instructions) / queries
                                         : std::numeric_limits<double>::quiet_NaN();
@@ -317,9 +323,10 @@ double Session::tail() const {
 
 }  // namespace
 
-void serve_session(const ts_candidate& candidate, const SessionCommand& begin, int socket,
-                   const Questions& questions, Exchange& exchange) {
-  Session(candidate, begin, socket, questions, exchange).serve();
+void serve_session(const ts_candidate& candidate, SpokenCommand* spoken,
+                   const SessionCommand& begin, int socket, const Questions& questions,
+                   Exchange& exchange) {
+  Session(candidate, spoken, begin, socket, questions, exchange).serve();
 }
 
 }  // namespace touchstone

@@ -37,7 +37,7 @@ TimeLimits::Limit TimeLimits::full() const {
 }
 
 TimeLimits::Limit TimeLimits::lowered(const std::vector<double>& latest, bool on_suspicion) const {
-  if (timeouts_ == 0 && !on_suspicion) return full();
+  if (!are_lowered_ || (timeouts_ == 0 && !on_suspicion)) return full();
   std::vector<double> known = learnt_;
   std::copy_if(latest.begin(), latest.end(), std::back_inserter(known),
                [](double seconds) { return std::isfinite(seconds); });
@@ -55,15 +55,15 @@ TimeLimits::Limit TimeLimits::lowered(const std::vector<double>& latest, bool on
           reason + " and " + (are_few ? "ten" : "a hundred") + " times its median"};
 }
 
-std::string TimeLimits::waited_too_long(const Watch& watch, std::size_t configurations) {
-  const auto number = static_cast<double>(configurations);
-  const double max_wait = number * max_wait_, max_time = number * clock_factor * full_;
+std::string TimeLimits::waited_too_long(const Watch& watch, double configurations) {
+  const double max_wait = configurations * max_wait_,
+               max_time = configurations * clock_factor * full_;
   const Watch::TimeUse spent = watch.spent();
   if (!spent.waiting && spent.by_the_clock > max_time) {
     return "no answer within " + seconds_text(max_time) + " by the clock";
   }
   if (spent.waiting.value_or(0) <= max_wait) return "";
-  max_wait_ = std::max(full_, max_wait_ / 2);
+  if (are_lowered_) max_wait_ = std::max(full_, max_wait_ / 2);
   return "no answer, having waited for " + seconds_text(max_wait);
 }
 

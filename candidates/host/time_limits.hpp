@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -19,7 +18,10 @@ class TimeLimits {
     std::string exceeded;
   };
 
-  explicit TimeLimits(double seconds) : full_(seconds) { forget(); }
+  /// `are_lowered`: by time-outs; else it is not known how long single answers take.
+  TimeLimits(double seconds, bool are_lowered) : full_(seconds), are_lowered_(are_lowered) {
+    forget();
+  }
   void forget();
   /// Processor time of an answer, seconds; not finite: unknown.
   void learn(double seconds);
@@ -32,10 +34,11 @@ class TimeLimits {
   Limit lowered(const std::vector<double>& latest, bool on_suspicion) const;
   /// Why so many configurations have waited too long since the watch began; empty if they have not.
   /// After that, the candidate may wait half as long.
-  std::string waited_too_long(const Watch& watch, std::size_t configurations);
+  std::string waited_too_long(const Watch& watch, double configurations);
 
  private:
-  double full_;                 ///< seconds of processor time
+  double full_;  ///< seconds of processor time
+  bool are_lowered_;
   double max_wait_;             ///< seconds
   std::vector<double> learnt_;  ///< seconds that the first answers took
   int timeouts_;

@@ -9,21 +9,20 @@
 #include <string>
 #include <system_error>
 #include <unistd.h>
+#include <vector>
 
 namespace touchstone {
-
-double processor_seconds(pid_t process) {
-  clockid_t clock;
-  timespec time{};
-  if (clock_getcpuclockid(process, &clock) != 0 || clock_gettime(clock, &time) != 0) return 0;
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
 
 namespace {
 
 double processor_seconds(const std::vector<pid_t>& processes) {
   double sum = 0;
-  for (const pid_t process : processes) sum += touchstone::processor_seconds(process);
+  for (const pid_t process : processes) {
+    clockid_t clock;
+    timespec time{};
+    if (clock_getcpuclockid(process, &clock) != 0 || clock_gettime(clock, &time) != 0) continue;
+    sum += static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+  }
   return sum;
 }
 
@@ -37,6 +36,18 @@ void for_each_thread(pid_t process, const Take& take) {
        !error && task != std::filesystem::directory_iterator(); task.increment(error)) {
     take(task->path());
   }
+}
+
+std::vector<pid_t> all_of(pid_t process, Watched watched) {
+  std::vector<pid_t> result = {process};
+  // The list grows as it is gone through.
+  for (std::size_t i = 0; watched == Watched::descendants_too && i < result.size(); ++i) {
+    for_each_thread(pid_t(result[i]), [&](const std::filesystem::path& thread) {
+      std::ifstream children(thread / "children");
+      for (pid_t child; children >> child;) result.push_back(child);
+    });
+  }
+  return result;
 }
 
 struct Threads {
@@ -66,19 +77,23 @@ Threads threads(const std::vector<pid_t>& processes) {
 
 }  // namespace
 
+double processor_seconds(pid_t process, Watched watched) {
+  return processor_seconds(all_of(process, watched));
+}
+
 // The order of the readings makes waiting an underestimate: the clock is read last here …
-Watch::Watch(pid_t process, Of of)
+Watch::Watch(pid_t process, Watched watched)
     : process_(process),
-      of_(of),
-      computed_(processor_seconds(watched())),
-      starved_(threads(watched()).starved),
+      watched_(watched),
+      computed_(processor_seconds(process, watched)),
+      starved_(threads(all_of(process, watched)).starved),
       start_(std::chrono::steady_clock::now()) {}
 
 // … and first here.
 Watch::TimeUse Watch::spent() const {
   const double clock =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  const std::vector<pid_t> processes = watched();
+  const std::vector<pid_t> processes = all_of(process_, watched_);
   const Threads now = threads(processes);
   const double computing = std::max(0.0, processor_seconds(processes) - computed_);
   if (!starved_) return {computing, std::nullopt, clock};
@@ -89,23 +104,11 @@ Watch::TimeUse Watch::spent() const {
 
 double Watch::resident_mebibytes() const {
   double pages = 0;
-  for (const pid_t process : watched()) {
+  for (const pid_t process : all_of(process_, watched_)) {
     double size = 0, resident = 0;
     if (std::ifstream(folder_of(process) + "/statm") >> size >> resident) pages += resident;
   }
   return pages * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1 << 20);
-}
-
-std::vector<pid_t> Watch::watched() const {
-  std::vector<pid_t> result = {process_};
-  // The list grows as it is gone through.
-  for (std::size_t i = 0; of_ == Of::descendants_too && i < result.size(); ++i) {
-    for_each_thread(pid_t(result[i]), [&](const std::filesystem::path& thread) {
-      std::ifstream children(thread / "children");
-      for (pid_t child; children >> child;) result.push_back(child);
-    });
-  }
-  return result;
 }
 
 std::string seconds_text(double seconds) {

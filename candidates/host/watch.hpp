@@ -4,19 +4,19 @@
 #include <optional>
 #include <string>
 #include <sys/types.h>
-#include <vector>
 
 namespace touchstone {
 
-/// Seconds of processor time that a process has used; zero if it has ended.
-double processor_seconds(pid_t process);
+enum class Watched { process, descendants_too };
+
+/// Seconds of processor time that a process has used, or it and its descendants, of those that have
+/// not ended.
+double processor_seconds(pid_t process, Watched watched = Watched::process);
 
 /// Measures how a process, or it and its descendants, spend their time: computing, waiting for
 /// something, or waiting for a processor, which on a busy machine is not their own fault.
 class Watch {
  public:
-  enum class Of { process, descendants_too };
-
   /// Seconds since the watch began.
   struct TimeUse {
     double computing;
@@ -26,15 +26,13 @@ class Watch {
     double by_the_clock;
   };
 
-  explicit Watch(pid_t process, Of of = Of::process);
+  explicit Watch(pid_t process, Watched watched = Watched::process);
   TimeUse spent() const;
   double resident_mebibytes() const;  ///< memory in use now
 
  private:
-  std::vector<pid_t> watched() const;
-
   pid_t process_;
-  Of of_;
+  Watched watched_;
   double computed_;
   std::optional<double> starved_;
   std::chrono::steady_clock::time_point start_;

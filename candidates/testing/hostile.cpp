@@ -157,7 +157,7 @@ void scribble(int fd, bool good_size) {
   char garbage[300];
   std::memset(garbage, 0x5a, sizeof garbage);
   // Once of the size of a Reply, once not.
-  for (const std::size_t size : {std::size_t{1}, std::size_t{264}, sizeof garbage}) {
+  for (const std::size_t size : {std::size_t{1}, std::size_t{24}, sizeof garbage}) {
     [[maybe_unused]] const ssize_t written = write(fd, garbage, good_size ? size : 1);
   }
   send(fd, garbage, 0, MSG_NOSIGNAL);

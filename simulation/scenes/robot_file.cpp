@@ -14,7 +14,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "candidates/host/contained.hpp"
-#include "candidates/host/host_process.hpp"
+#include "candidates/host/guard.hpp"
 #include "candidates/readable.hpp"
 #include "properties/files/bytes.hpp"
 #include "properties/files/given_text.hpp"
