@@ -14,7 +14,6 @@
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
-#include <system_error>
 #include <unistd.h>
 #include <utility>
 
@@ -30,7 +29,7 @@ class Shared {
   explicit Shared(unsigned workers)
       : bytes_(sizeof(std::atomic<std::uint64_t>) * (workers + 1)),
         memory_(mmap(nullptr, bytes_, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0)) {
-    if (memory_ == MAP_FAILED) throw std::system_error(errno, std::generic_category(), "mmap");
+    if (memory_ == MAP_FAILED) fail("mmap");
     for (unsigned i = 0; i <= workers; ++i) new (&at(i)) std::atomic<std::uint64_t>(0);
   }
   ~Shared() { munmap(memory_, bytes_); }
@@ -107,11 +106,6 @@ struct Worker {
   std::string buffer;
 };
 
-/// A task threw, or the worker that had it died.
-struct TaskFailure : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
-
 /// All workers of a run. The destructor kills those that are still running.
 class Workers {
  public:
@@ -170,9 +164,9 @@ bool stream_from_processes(std::uint64_t count, unsigned workers,
   const pid_t parent = getpid();
   for (unsigned i = 0; i < workers; ++i) {
     int ends[2];
-    if (pipe(ends) != 0) throw std::system_error(errno, std::generic_category(), "pipe");
+    if (pipe(ends) != 0) fail("pipe");
     const pid_t pid = fork();
-    if (pid < 0) throw std::system_error(errno, std::generic_category(), "fork");
+    if (pid < 0) fail("fork");
     if (pid == 0) {
       follow(parent);
       close(ends[0]);
@@ -213,7 +207,7 @@ bool stream_from_processes(std::uint64_t count, unsigned workers,
       for (const Worker& w : pool.all()) polled.push_back({w.fd, POLLIN, 0});
       if (poll(polled.data(), polled.size(), max_milliseconds) < 0) {
         if (errno == EINTR) continue;
-        throw std::system_error(errno, std::generic_category(), "poll");
+        fail("poll");
       }
       for (unsigned i = 0; i < workers; ++i) {
         Worker& w = pool.all()[i];
@@ -228,7 +222,8 @@ bool stream_from_processes(std::uint64_t count, unsigned workers,
         waitpid(std::exchange(w.pid, -1), &status, 0);
         const std::uint64_t at = shared.current(i);
         if (at != 0)
-          throw TaskFailure(name(at - 1) + ": the worker's process: " + how_it_ended(status));
+          throw TaskFailure(name(at - 1) + ": the worker's process: " + how_it_ended(status),
+                            status);
       }
     }
     return true;

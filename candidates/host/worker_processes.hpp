@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,6 +20,13 @@ std::vector<std::string> run_in_processes(std::size_t count, unsigned workers,
                                           const std::function<std::string(std::size_t)>& task,
                                           const std::function<std::string(std::size_t)>& name,
                                           const std::function<void(std::size_t)>& done);
+
+/// A task threw, or the worker that had it died.
+struct TaskFailure : std::runtime_error {
+  explicit TaskFailure(const std::string& text, int worker_status = 0)
+      : std::runtime_error(text), wait_status(worker_status) {}
+  int wait_status;  ///< of the worker that died; zero: it did not
+};
 
 /// Like run_in_processes, for runs whose results do not fit into memory: passes each result to
 /// `take` as it arrives, in any order, and keeps none. Ends early, dropping unfinished tasks, when
