@@ -25,23 +25,24 @@ constexpr struct {
     {"ode", "libode-dev"},       {"fcl", "libfcl-dev"},       {"libccd", "libccd-dev"},
     {"mujoco", "libmujoco-dev"}, {"simplified", ""},          {"box-parts", ""}};
 
-/// Our routines in single precision, and engines whose cylinders are Touchstone's
-/// (reference/engines): like engines from npm, they are part of a report only if they are named,
-/// and nothing is loaded before.
-constexpr const char* named_plugins[] = {"reference-float", "bullet+touchstone",
-                                         "bullet-float+touchstone", "ode+touchstone",
-                                         "mujoco+touchstone"};
-
-/// Candidates of engines that Debian does not have, and their plug-ins, which are built where CMake
-/// finds the engine. They have to be named, too, so that a default report is the same everywhere.
+/// Candidates that are part of a report only if they are named, like engines from npm, and nothing
+/// is loaded before: our routines in single precision and engines whose cylinders are Touchstone's
+/// (reference/engines); and peers, engines that Debian does not have, which are built where CMake
+/// finds them, so that a default report is the same everywhere.
 constexpr struct {
   const char* name;
   const char* plugin;
-} peer_candidates[] = {{"coal", "coal"},
-                       {"coal-patch", "coal"},
-                       {"jolt-native", "jolt-native"},
-                       {"jolt-native-margin-0", "jolt-native"},
-                       {"box3d", "box3d"}};
+  bool is_peer;
+} plugins_to_name[] = {{"reference-float", "reference-float", false},
+                       {"bullet+touchstone", "bullet+touchstone", false},
+                       {"bullet-float+touchstone", "bullet-float+touchstone", false},
+                       {"ode+touchstone", "ode+touchstone", false},
+                       {"mujoco+touchstone", "mujoco+touchstone", false},
+                       {"coal", "coal", true},
+                       {"coal-patch", "coal", true},
+                       {"jolt-native", "jolt-native", true},
+                       {"jolt-native-margin-0", "jolt-native", true},
+                       {"box3d", "box3d", true}};
 
 /// The folder of this code's file: of the program or, in Python, of the module.
 std::filesystem::path own_folder() {
@@ -93,16 +94,21 @@ std::optional<double> to_number(std::string_view text) {
 }
 
 /// The plug-in of a family that is loaded once it is named; absent if it was not built.
-std::optional<std::filesystem::path> plugin_to_name(const std::string& family) {
-  std::string plugin;
-  for (const char* name : named_plugins) {
-    if (family == name) plugin = name;
+std::optional<std::filesystem::path> plugin_to_name(std::string_view family) {
+  for (const auto& [name, plugin, is_peer] : plugins_to_name) {
+    if (family == name && std::filesystem::exists(standard_file(plugin))) {
+      return standard_file(plugin);
+    }
   }
-  for (const auto& peer : peer_candidates) {
-    if (family == peer.name) plugin = peer.plugin;
+  return std::nullopt;
+}
+
+std::vector<std::string> built_to_name(bool peers) {
+  std::vector<std::string> names;
+  for (const auto& [name, plugin, is_peer] : plugins_to_name) {
+    if (is_peer == peers && plugin_to_name(name)) names.emplace_back(name);
   }
-  if (plugin.empty() || !std::filesystem::exists(standard_file(plugin))) return std::nullopt;
-  return standard_file(plugin);
+  return names;
 }
 
 Candidate member(const Candidate& family, double value) {
@@ -314,41 +320,17 @@ std::vector<double> sweep(const Candidate& family, std::string_view text) {
   return values;
 }
 
-ts_shape_kind other_shape(Pair pair) {
-  switch (pair) {
-    case Pair::plane:
-      return TS_PLANE;
-    case Pair::sphere:
-      return TS_SPHERE;
-    case Pair::capsule:
-      return TS_CAPSULE;
-    case Pair::cylinder:
-      return TS_CYLINDER;
-    case Pair::box:
-      break;
-  }
-  return TS_BOX;
-}
-
 }  // namespace
 
-bool Candidate::has_routine_for(Pair pair) const { return supports[other_shape(pair)]; }
-
-std::vector<std::string> named_candidates() {
-  std::vector<std::string> names;
-  for (const char* name : named_plugins) {
-    if (plugin_to_name(name)) names.emplace_back(name);
-  }
-  return names;
+bool Candidate::has_routine_for(Pair pair) const {
+  constexpr ts_shape_kind kinds[] = {TS_PLANE, TS_SPHERE, TS_CAPSULE, TS_CYLINDER, TS_BOX};
+  static_assert(std::size(kinds) == std::size(all_pairs));
+  return supports[kinds[static_cast<std::size_t>(pair)]];
 }
 
-std::vector<std::string> peer_engines() {
-  std::vector<std::string> names;
-  for (const auto& peer : peer_candidates) {
-    if (plugin_to_name(peer.name)) names.emplace_back(peer.name);
-  }
-  return names;
-}
+std::vector<std::string> named_candidates() { return built_to_name(false); }
+
+std::vector<std::string> peer_engines() { return built_to_name(true); }
 
 std::vector<const Candidate*> all_candidates() { return Registry::get().listed(); }
 
