@@ -1,6 +1,7 @@
 #include "candidates/host/progress.hpp"
 
 #include <cstdio>
+#include <functional>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <pty.h>
@@ -24,8 +25,15 @@ TEST(Progress, PromisesNothingBeforeAnythingIsDone) {
   EXPECT_EQ(progress_text("cells", 0, 0, 0), "0 of 0 cells");
 }
 
-/// What a process writes to its terminal until it ends.
-std::string all_of(int terminal, pid_t pid) {
+/// What work writes to a terminal of that many columns.
+std::string on_terminal(unsigned short columns, const std::function<void()>& work) {
+  winsize size{24, columns, 0, 0};
+  int terminal = -1;
+  const pid_t pid = forkpty(&terminal, nullptr, nullptr, &size);
+  if (pid == 0) {
+    work();
+    _exit(0);
+  }
   std::string text;
   char part[256];
   for (ssize_t got; (got = read(terminal, part, sizeof part)) > 0;) text.append(part, got);
@@ -42,26 +50,16 @@ TEST(Progress, OfTheWholeHasABarAndTheTimeLeft) {
             "[====================] 100%, 0 s left: 4 of 4 cells");
 }
 
-/// The output of half a second of progress on a terminal of that many columns.
-std::string on_terminal(unsigned short columns) {
-  winsize size{24, columns, 0, 0};
-  int terminal = -1;
-  const pid_t pid = forkpty(&terminal, nullptr, nullptr, &size);
-  if (pid == 0) {
-    {
-      Progress progress("configurations", 100);
-      for (std::size_t i = 0; i < 50; ++i) {
-        progress.update(i);
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));
-      }
-    }
-    _exit(0);
+void progress_for_half_a_second() {
+  Progress progress("configurations", 100);
+  for (std::size_t i = 0; i < 50; ++i) {
+    progress.update(i);
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
-  return all_of(terminal, pid);
 }
 
 TEST(Progress, RewritesOneLineOnATerminalAndClearsIt) {
-  const std::string text = on_terminal(80);
+  const std::string text = on_terminal(80, progress_for_half_a_second);
   EXPECT_THAT(text, testing::HasSubstr(" of 100 configurations, "));
   EXPECT_THAT(text, testing::HasSubstr(" s left"));
   EXPECT_THAT(text, testing::Not(testing::HasSubstr("\n")));
@@ -69,24 +67,18 @@ TEST(Progress, RewritesOneLineOnATerminalAndClearsIt) {
 }
 
 TEST(Progress, KeepsToTheWidthOfTheTerminal) {
-  EXPECT_THAT(on_terminal(20), testing::Not(testing::HasSubstr("configurations,")));
+  EXPECT_THAT(on_terminal(20, progress_for_half_a_second),
+              testing::Not(testing::HasSubstr("configurations,")));
 }
 
 TEST(Progress, OfAPartTellsOfTheWhole) {
   const auto shown = [](const char* unit) {
-    winsize size{24, 80, 0, 0};
-    int terminal = -1;
-    const pid_t pid = forkpty(&terminal, nullptr, nullptr, &size);
-    if (pid == 0) {
-      {
-        const OverallProgress overall({{"cells", 3}, {"maps", 1}, {"runs", 4}});
-        Progress progress(unit, 2);
-        std::this_thread::sleep_for(std::chrono::milliseconds(300));
-        progress.update(1);
-      }
-      _exit(0);
-    }
-    return all_of(terminal, pid);
+    return on_terminal(80, [unit] {
+      const OverallProgress overall({{"cells", 3}, {"maps", 1}, {"runs", 4}});
+      Progress progress(unit, 2);
+      std::this_thread::sleep_for(std::chrono::milliseconds(300));
+      progress.update(1);
+    });
   };
   // What comes before counts as done, what comes after as not.
   EXPECT_THAT(shown("cells"), testing::ContainsRegex("\\] 18%, [0-9]+ s left: 1 of 2 cells"));

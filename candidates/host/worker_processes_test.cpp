@@ -7,6 +7,7 @@
 #include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <initializer_list>
 #include <stdexcept>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -217,37 +218,25 @@ TEST(Interruption, AsksOnceAndIsForgotten) {
   EXPECT_FALSE(interrupted());
 }
 
+/// Ends this process as long work does, unless the signals end it before.
+[[noreturn]] void work_through(std::initializer_list<int> signals, useconds_t between = 0) {
+  const Interruption interruption;
+  for (const int signal : signals) {
+    raise(signal);
+    usleep(between);
+  }
+  _exit(interrupted_exit_code());
+}
+
 TEST(InterruptionDeathTest, ASecondSignalEndsAtOnce) {
-  const auto twice = [] {
-    const Interruption interruption;
-    raise(SIGINT);
-    raise(SIGTERM);
-  };
-  EXPECT_EXIT(twice(), testing::KilledBySignal(SIGTERM), "once more");
+  EXPECT_EXIT(work_through({SIGINT, SIGTERM}), testing::KilledBySignal(SIGTERM), "once more");
 }
 
 TEST(InterruptionDeathTest, TheSameSignalAtOnceIsTheSameRequest) {
-  const auto at_once = [] {
-    const Interruption interruption;
-    raise(SIGINT);
-    raise(SIGINT);
-    _exit(interrupted_exit_code());
-  };
-  EXPECT_EXIT(at_once(), testing::ExitedWithCode(130), "ending with what there is");
-  const auto logout = [] {
-    const Interruption interruption;
-    raise(SIGTERM);
-    raise(SIGHUP);
-    _exit(interrupted_exit_code());
-  };
-  EXPECT_EXIT(logout(), testing::ExitedWithCode(143), "ending with what there is");
-  const auto later = [] {
-    const Interruption interruption;
-    raise(SIGINT);
-    usleep(350000);
-    raise(SIGINT);
-  };
-  EXPECT_EXIT(later(), testing::KilledBySignal(SIGINT), "once more");
+  const char* const told = "ending with what there is";
+  EXPECT_EXIT(work_through({SIGINT, SIGINT}), testing::ExitedWithCode(130), told);
+  EXPECT_EXIT(work_through({SIGTERM, SIGHUP}), testing::ExitedWithCode(143), told);
+  EXPECT_EXIT(work_through({SIGINT, SIGINT}, 350000), testing::KilledBySignal(SIGINT), "once more");
 }
 
 TEST(InterruptionDeathTest, SaysThatItEndsWhereNothingCatchesIt) {
@@ -302,32 +291,26 @@ TEST(Contained, LeavesThisProcessAsItWas) {
   EXPECT_EQ(changed, 0);
 }
 
-TEST(Contained, SaysHowACrashEnded) {
-  const Contained ran = run_contained(
-      []() -> std::string {
-        std::raise(SIGSEGV);
-        return "";
-      },
-      10);
-  EXPECT_EQ(ran.end, End::crashed);
-  EXPECT_EQ(ran.text, "Segmentation fault");
-}
-
-TEST(Contained, TakesAnExceptionForACrashWithItsText) {
-  const Contained ran =
-      run_contained([]() -> std::string { throw std::runtime_error("no engine"); }, 10);
-  EXPECT_EQ(ran.end, End::crashed);
-  EXPECT_EQ(ran.text, "no engine");
-}
-
-TEST(Contained, EndsATaskThatHangs) {
-  const Contained ran = run_contained(
-      []() -> std::string {
-        volatile int i = 0;
-        for (;;) i = 1 - i;
-      },
-      1);
-  EXPECT_EQ(ran.end, End::timed_out);
+TEST(Contained, SaysHowATaskEnded) {
+  const struct {
+    std::function<std::string()> task;
+    End end;
+    const char* text;
+  } cases[] = {
+      {[] { return std::raise(SIGSEGV), ""; }, End::crashed, "Segmentation fault"},
+      {[]() -> std::string { throw std::runtime_error("no engine"); }, End::crashed, "no engine"},
+      {[] { return _exit(3), ""; }, End::crashed, "ended with exit code 3"},
+      {[]() -> std::string {
+         volatile int i = 0;
+         for (;;) i = 1 - i;
+       },
+       End::timed_out, "took too long"},
+      {[] { return pause(), ""; }, End::timed_out, "took too long"}};
+  for (const auto& [task, end, text] : cases) {
+    const Contained ran = run_contained(task, 1);
+    EXPECT_EQ(ran.end, end) << text;
+    EXPECT_EQ(ran.text, text);
+  }
 }
 
 }  // namespace

@@ -86,9 +86,6 @@ void divide() {
   nowhere = static_cast<std::uintptr_t>(dividend / divisor);
 }
 void leave() { std::exit(0); }
-void leave_now() { _exit(0); }
-void leave_quickly() { std::quick_exit(0); }
-void leave_with_our_code() { _exit(97); }
 void leave_slowly() {
   std::atexit(wait_for_ever);
   std::exit(0);
@@ -97,7 +94,6 @@ void leave_to_child() {
   if (fork() != 0) _exit(0);
 }
 void throw_number() { throw 7; }
-void sleep_long() { sleep(1000); }
 void doze() {
   for (;;) usleep(1000);
 }
@@ -119,7 +115,6 @@ void fork_and_both_wait() {
   fork();
   wait_for_ever();
 }
-void fork_and_both_return() { fork(); }
 void fork_and_leave_one_waiting() {
   if (fork() == 0) wait_for_ever();
 }
@@ -197,7 +192,6 @@ void trace_me() {
   ptrace(PTRACE_TRACEME, 0, nullptr, nullptr);
   raise(SIGUSR1);
 }
-void trace_parent() { ptrace(PTRACE_ATTACH, getppid(), nullptr, nullptr); }
 void block_signals_and_work() {
   sigset_t all;
   sigfillset(&all);
@@ -214,7 +208,6 @@ void handle_crashes_and_crash() {  // the faulting instruction is done again and
   signal(SIGSEGV, on_signal);
   crash();
 }
-void set_alarm() { alarm(1); }
 void set_timer() {
   const itimerval soon{{0, 0}, {0, 300}};
   setitimer(ITIMER_REAL, &soon, nullptr);
@@ -237,7 +230,6 @@ int recurse(int depth) {
   page[0] = static_cast<char>(depth);
   return nowhere == 0 ? recurse(depth + 1) + page[0] : 0;
 }
-void overflow_stack() { nowhere = static_cast<std::uintptr_t>(recurse(0)) * nowhere; }
 void change_surroundings() {
   if (chdir("/proc/self/task") != 0) std::abort();
   umask(0777);
@@ -249,29 +241,29 @@ void remove_folder() {
   char name[] = "/tmp/touchstone-hostile-XXXXXX";
   if (!mkdtemp(name) || chdir(name) != 0 || rmdir(name) != 0) std::abort();
 }
-void change_rounding() { std::fesetround(FE_UPWARD); }
-void flush_subnormals() { _mm_setcsr(_mm_getcsr() | 0x8040); }
-void unmask_exceptions() { feenableexcept(FE_ALL_EXCEPT); }
-/// All shared memory, according to /proc.
-void overwrite_shared(int byte) {
+/// Calls act(first byte, size) for all memory that this process shares with others.
+template <class Act>
+void each_shared(const Act& act) {
   std::FILE* const maps = std::fopen("/proc/self/maps", "r");
-  if (!maps) return;
   char line[512];
-  while (std::fgets(line, sizeof line, maps)) {
+  while (maps && std::fgets(line, sizeof line, maps)) {
     void *from = nullptr, *to = nullptr;
     char rights[5] = "";
-    if (std::sscanf(line, "%p-%p %4s", &from, &to, rights) != 3 || rights[3] != 's') continue;
-    const auto size = static_cast<std::size_t>(static_cast<char*>(to) - static_cast<char*>(from));
+    if (std::sscanf(line, "%p-%p %4s", &from, &to, rights) == 3 && rights[3] == 's') {
+      act(from, static_cast<std::size_t>(static_cast<char*>(to) - static_cast<char*>(from)));
+    }
+  }
+  if (maps) std::fclose(maps);
+}
+void overwrite_shared(int byte) {
+  each_shared([byte](void* from, std::size_t size) {
     mprotect(from, size, PROT_READ | PROT_WRITE);
     if (mprotect(from, size, PROT_WRITE) == 0) {
       mprotect(from, size, PROT_READ | PROT_WRITE);
       std::memset(from, byte, size);
     }
-  }
-  std::fclose(maps);
+  });
 }
-void overwrite_with_ones() { overwrite_shared(0xff); }
-void overwrite_with_zeros() { overwrite_shared(0); }
 void overwrite_and_crash() {
   overwrite_shared(0xff);
   crash();
@@ -280,17 +272,7 @@ void overwrite_and_wait() {
   overwrite_shared(0xff);
   wait_for_ever();
 }
-void unmap_shared() {
-  std::FILE* const maps = std::fopen("/proc/self/maps", "r");
-  char line[512];
-  while (maps && std::fgets(line, sizeof line, maps)) {
-    void *from = nullptr, *to = nullptr;
-    char rights[5] = "";
-    if (std::sscanf(line, "%p-%p %4s", &from, &to, rights) == 3 && rights[3] == 's') {
-      munmap(from, static_cast<std::size_t>(static_cast<char*>(to) - static_cast<char*>(from)));
-    }
-  }
-}
+void unmap_shared() { each_shared(munmap); }
 void print_much() {
   const std::vector<char> text(1 << 20, 'x');
   for (int i = 0; i < 20; ++i) {
@@ -300,17 +282,6 @@ void print_much() {
   }
 }
 std::jmp_buf never_set;
-void jump_nowhere() { std::longjmp(never_set, 1); }
-void cancel_thread() { pthread_exit(nullptr); }
-
-// Deeds that are in the answer.
-void billion_points(ts_answer& a) { a.point_count = 1000000000; }
-void minus_points(ts_answer& a) { a.point_count = -1; }
-void not_a_number(ts_answer& a) { a.signed_distance = std::numeric_limits<double>::quiet_NaN(); }
-void strange_status(ts_answer& a) { std::memset(&a.status, 0x77, sizeof a.status); }
-void claim_timeout(ts_answer& a) { a.status = TS_TIMED_OUT; }
-void write_beyond(ts_answer& a) { std::memset(&a.points[TOUCHSTONE_MAX_POINTS], 1, 4096); }
-void write_before(ts_answer& a) { std::memset(reinterpret_cast<char*>(&a) - 3000, 1, 3000); }
 
 enum class When { query, prepare, release, answer };
 struct Deed {
@@ -344,21 +315,21 @@ constexpr Deed deeds[] = {
     in_query("SIGALRM", raise_it<SIGALRM>),
     in_query("SIGBUS", raise_it<SIGBUS>),
     in_query("exit", leave),
-    in_query("_exit", leave_now),
-    in_query("quick_exit", leave_quickly),
-    in_query("exit with the host's own code", leave_with_our_code),
+    in_query("_exit", [] { _exit(0); }),
+    in_query("quick_exit", [] { std::quick_exit(0); }),
+    in_query("exit with the host's own code", [] { _exit(97); }),
     in_query("exit with a handler that hangs", leave_slowly),
     in_query("leave the session to a child", leave_to_child),
     in_query("throw", throw_number),
     in_query("endless loop", work_for_ever),
-    in_query("sleep", sleep_long),
+    in_query("sleep", [] { sleep(1000); }),
     in_query("pause", wait_for_ever),
     in_query("doze", doze),
     in_query("read standard input", read_input),
     in_query("read a pipe of its own", read_own_pipe),
     in_query("deadlock", take_lock_twice),
     in_query("fork, both pause", fork_and_both_wait),
-    in_query("fork, both return", fork_and_both_return),
+    in_query("fork, both return", [] { fork(); }),
     in_query("fork, the child pauses", fork_and_leave_one_waiting),
     in_query("vfork, the child pauses", vfork_and_wait),
     in_query("daemon", daemon_that_waits),
@@ -381,29 +352,30 @@ constexpr Deed deeds[] = {
     in_query("interrupt the parent", kill_parent<SIGINT>),
     in_query("kill the parent's group", kill_parents_group<SIGKILL>),
     in_query("be traced", trace_me),
-    in_query("trace the parent", trace_parent),
+    in_query("trace the parent", [] { ptrace(PTRACE_ATTACH, getppid(), nullptr, nullptr); }),
     in_query("block all signals and loop", block_signals_and_work),
     in_query("handle all signals and crash", handle_signals_and_crash),
     in_query("handle crashes and crash", handle_crashes_and_crash),
-    in_query("alarm", set_alarm),
+    in_query("alarm", [] { alarm(1); }),
     in_query("timer", set_timer),
     in_query("lower limits", lower_limits),
     in_query("raise limits", raise_limits),
     in_query("allocate a tebibyte", allocate),
-    in_query("overflow the stack", overflow_stack),
+    in_query("overflow the stack",
+             [] { nowhere = static_cast<std::uintptr_t>(recurse(0)) * nowhere; }),
     in_query("change folder, mask, locale, environment", change_surroundings),
     in_query("remove its folder", remove_folder),
-    in_query("round upward", change_rounding),
-    in_query("flush subnormals", flush_subnormals),
-    in_query("trap on inexact", unmask_exceptions),
-    in_query("overwrite shared memory with ones", overwrite_with_ones),
-    in_query("overwrite shared memory with zeros", overwrite_with_zeros),
+    in_query("round upward", [] { std::fesetround(FE_UPWARD); }),
+    in_query("flush subnormals", [] { _mm_setcsr(_mm_getcsr() | 0x8040); }),
+    in_query("trap on inexact", [] { feenableexcept(FE_ALL_EXCEPT); }),
+    in_query("overwrite shared memory with ones", [] { overwrite_shared(0xff); }),
+    in_query("overwrite shared memory with zeros", [] { overwrite_shared(0); }),
     in_query("overwrite shared memory and crash", overwrite_and_crash),
     in_query("overwrite shared memory and pause", overwrite_and_wait),
     in_query("unmap shared memory", unmap_shared),
     in_query("print 40 MiB", print_much),
-    in_query("jump nowhere", jump_nowhere),
-    in_query("end the thread", cancel_thread),
+    in_query("jump nowhere", [] { std::longjmp(never_set, 1); }),
+    in_query("end the thread", [] { pthread_exit(nullptr); }),
     in_prepare("crash in prepare", crash),
     in_prepare("exit in prepare", leave),
     in_prepare("throw in prepare", throw_number),
@@ -411,13 +383,17 @@ constexpr Deed deeds[] = {
     in_release("crash in release", crash),
     in_release("exit in release", leave),
     in_release("pause in release", wait_for_ever),
-    in_answer("a billion points", billion_points),
-    in_answer("minus one point", minus_points),
-    in_answer("not a number", not_a_number),
-    in_answer("unknown status", strange_status),
-    in_answer("claim a timeout", claim_timeout),
-    in_answer("write beyond the answer", write_beyond),
-    in_answer("write before the answer", write_before),
+    in_answer("a billion points", [](ts_answer& a) { a.point_count = 1000000000; }),
+    in_answer("minus one point", [](ts_answer& a) { a.point_count = -1; }),
+    in_answer("not a number",
+              [](ts_answer& a) { a.signed_distance = std::numeric_limits<double>::quiet_NaN(); }),
+    in_answer("unknown status",
+              [](ts_answer& a) { std::memset(&a.status, 0x77, sizeof a.status); }),
+    in_answer("claim a timeout", [](ts_answer& a) { a.status = TS_TIMED_OUT; }),
+    in_answer("write beyond the answer",
+              [](ts_answer& a) { std::memset(&a.points[TOUCHSTONE_MAX_POINTS], 1, 4096); }),
+    in_answer("write before the answer",
+              [](ts_answer& a) { std::memset(reinterpret_cast<char*>(&a) - 3000, 1, 3000); }),
 };
 constexpr int count = sizeof deeds / sizeof *deeds;
 
