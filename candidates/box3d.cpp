@@ -13,13 +13,12 @@
 //              the threshold is dropped. Beyond 2 cm it has no answer.
 // Precision    Poses are rounded to float, and are taken relative to body A.
 // Version      Of the installed package; not in Debian 12. Built where CMake finds Box3D's package.
-#include <algorithm>
 #include <box3d/collision.h>
 #include <box3d/math_functions.h>
 #include <cmath>
 #include <string>
 
-#include "candidates/candidate.h"
+#include "candidates/adapter.hpp"
 
 namespace {
 
@@ -94,29 +93,20 @@ void query(ts_prepared* p, const ts_pose* a, const ts_pose* b, const double*, ts
   } else {
     b3CollideHulls(&manifold, TOUCHSTONE_MAX_POINTS, p->a, p->hull(), b_in_a, &axes);
   }
-  const b3Vec3 normal = b3Neg(b3RotateVector(turn_a, manifold.normal));
-  answer->point_count = 0;
-  answer->status = TS_NONE;
+  const b3Vec3 n = b3Neg(b3RotateVector(turn_a, manifold.normal));
+  const float normal[3] = {n.x, n.y, n.z};
+  touchstone::adapter::begin(*answer);
   for (int i = 0; i < manifold.pointCount; ++i) {
     const double separation = double{points[i].separation};
     if (separation > p->threshold) continue;
-    ts_point& point = answer->points[answer->point_count++];
     const b3Vec3 at = b3RotateVector(turn_a, points[i].point);
-    const float position[3] = {at.x, at.y, at.z}, n[3] = {normal.x, normal.y, normal.z};
-    for (int k = 0; k < 3; ++k) {
-      point.position[k] = a->position[k] + double{position[k]};
-      point.normal[k] = double{n[k]};
-    }
-    point.depth = -separation;
-    if (answer->status == TS_NONE || separation < answer->signed_distance) {
-      answer->signed_distance = separation;
-      std::copy(std::begin(point.normal), std::end(point.normal), answer->normal);
-    }
-    answer->status = TS_CONTACT;
+    const double position[3] = {a->position[0] + double{at.x}, a->position[1] + double{at.y},
+                                a->position[2] + double{at.z}};
+    touchstone::adapter::add_point(position, normal, separation, *answer);
   }
 }
 
-int supports(void*, ts_shape_kind kind) { return kind != TS_PLANE; }
+using touchstone::adapter::supports_bounded;
 
 const ts_parameter sides = {"number of sides", 3, 32, 16, 1, 1};
 const std::string version = [] {
@@ -126,9 +116,9 @@ const std::string version = [] {
 const ts_candidate candidates[] = {
     {"box3d", version.c_str(),
      "single precision; the pair's function with an empty cache; its own prism for every cylinder",
-     "every cylinder as the regular prism with its corners on the rims", &sides, supports, prepare,
-     query, release, nullptr, nullptr}};
-const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 1, candidates, nullptr, 0};
+     "every cylinder as the regular prism with its corners on the rims", &sides, supports_bounded,
+     prepare, query, release, nullptr, nullptr}};
+const ts_plugin plugin = touchstone::adapter::plugin_of(candidates);
 
 }  // namespace
 

@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-#include "candidates/candidate.h"
+#include "candidates/adapter.hpp"
 #include "candidates/model.hpp"
 #include "reference/contact.hpp"
 
@@ -17,6 +17,7 @@ using touchstone::BoxParts;
 using touchstone::Contact;
 using touchstone::Pose;
 using touchstone::Vec3;
+using touchstone::adapter::copy;
 
 namespace {
 
@@ -24,8 +25,6 @@ Pose to_pose(const ts_pose& p) {
   const double* q = p.orientation;
   return Pose(touchstone::position_of(p), Eigen::Quaterniond(q[0], q[1], q[2], q[3]));
 }
-
-void copy(const Vec3& from, double (&to)[3]) { std::copy(from.data(), from.data() + 3, to); }
 
 }  // namespace
 
@@ -94,7 +93,7 @@ double model_distance(ts_prepared* p, const ts_pose* a, const ts_pose* b) {
 }
 
 int supports(void*, ts_shape_kind kind) { return kind == TS_BOX; }
-void release(ts_prepared* prepared) { delete prepared; }
+using touchstone::adapter::release;
 
 const ts_parameter spheres = {"number of spheres along the longest axis", 1, 64, 8, 1, 0};
 const ts_parameter capsules = {"number of capsules", 1, 64, 4, 1, 0};
@@ -108,7 +107,7 @@ const ts_candidate candidates[] = {
      "double precision; Touchstone's cylinder and capsule, once for each part; exact for its model",
      "the box as capsules inside it, of its smallest half extent, side by side", &capsules,
      supports, prepare<true>, query, release, model_distance, nullptr}};
-const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 2, candidates, nullptr, 0};
+const ts_plugin plugin = touchstone::adapter::plugin_of(candidates);
 
 }  // namespace
 

@@ -38,7 +38,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "candidates/candidate.h"
+#include "candidates/adapter.hpp"
 #include "candidates/model.hpp"
 #ifdef TOUCHSTONE_CURED
 #include "reference/engines/bullet.hpp"
@@ -94,10 +94,6 @@ btTransform to_transform(const ts_pose& p) {
   std::transform(p.orientation, p.orientation + 4, q, to_scalar);
   std::transform(p.position, p.position + 3, x, to_scalar);
   return btTransform(btQuaternion(q[1], q[2], q[3], q[0]), btVector3(x[0], x[1], x[2]));
-}
-
-void copy(const btVector3& from, double (&to)[3]) {
-  for (int i = 0; i < 3; ++i) to[i] = from[i];
 }
 
 /// The default configuration keeps pools for thousands of pairs; a session has few.
@@ -161,8 +157,7 @@ class Pair {
     process(at_a);
     // Some algorithms make it with their first answer.
     if (manifolds_.size() == 0) algorithm_->getAllContactManifolds(manifolds_);
-    answer.status = TS_NONE;
-    answer.point_count = 0;
+    touchstone::adapter::begin(answer);
     for (int i = 0; i < manifolds_.size(); ++i) read(*manifolds_[i], answer);
   }
 
@@ -184,16 +179,9 @@ class Pair {
       const btManifoldPoint& point = manifold.getContactPoint(k);
       // Written so that NaN is reported, not dropped.
       if (point.getDistance() > threshold_) continue;
-      if (answer.point_count == TOUCHSTONE_MAX_POINTS) break;
-      ts_point& out = answer.points[answer.point_count++];
-      copy((point.getPositionWorldOnA() + point.getPositionWorldOnB()) / 2, out.position);
-      copy(sign * point.m_normalWorldOnB, out.normal);
-      out.depth = -point.getDistance();
-      if (answer.status == TS_NONE || point.getDistance() < answer.signed_distance) {
-        answer.status = TS_CONTACT;
-        answer.signed_distance = point.getDistance();
-        std::copy(out.normal, out.normal + 3, answer.normal);
-      }
+      touchstone::adapter::add_point(
+          btVector3((point.getPositionWorldOnA() + point.getPositionWorldOnB()) / 2),
+          btVector3(sign * point.m_normalWorldOnB), double{point.getDistance()}, answer);
     }
   }
 
@@ -218,8 +206,6 @@ namespace {
 
 constexpr bool single_precision = sizeof(btScalar) == sizeof(float);
 
-int supports(void*, ts_shape_kind) { return 1; }
-
 constexpr Setting usual;
 
 template <Setting setting>
@@ -232,7 +218,7 @@ void query(ts_prepared* prepared, const ts_pose* a, const ts_pose* b, const doub
   prepared->pair.query(*a, *b, *answer);
 }
 
-void release(ts_prepared* prepared) { delete prepared; }
+using touchstone::adapter::release, touchstone::adapter::supports_all;
 
 #define NAME(rest) (single_precision ? "bullet-float" rest : "bullet" rest)
 #define SETTINGS(rest) (single_precision ? "single precision; " rest : "double precision; " rest)
@@ -246,8 +232,8 @@ const ts_candidate candidates[] = {
      SETTINGS("the world's narrow phase with Touchstone's contacts of cylinders installed, at most "
               "4 points, midway between the two surfaces; one query with an empty manifold; sharp "
               "edges"),
-     nullptr, nullptr, supports, prepare<usual>, query, release, nullptr, nullptr}};
-const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 1, candidates, nullptr, 0};
+     nullptr, nullptr, supports_all, prepare<usual>, query, release, nullptr, nullptr}};
+const ts_plugin plugin = touchstone::adapter::plugin_of(candidates);
 
 #else
 
@@ -273,17 +259,17 @@ const ts_candidate candidates[] = {
     {NAME(""), TOUCHSTONE_BULLET_VERSION,
      SETTINGS(CALLS "one query with an empty manifold; default margins: edges of cylinder and box "
                     "rounded by min(0.04 m, a tenth of the smallest half extent)"),
-     nullptr, nullptr, supports, prepare<usual>, query, release, nullptr, nullptr},
+     nullptr, nullptr, supports_all, prepare<usual>, query, release, nullptr, nullptr},
     {NAME("-margin-0"), TOUCHSTONE_BULLET_VERSION,
      SETTINGS(CALLS "one query with an empty manifold; margin 0 on cylinder and box"), nullptr,
-     nullptr, supports, prepare<sharp>, query, release, nullptr, nullptr},
+     nullptr, supports_all, prepare<sharp>, query, release, nullptr, nullptr},
     {NAME("-persistent"), TOUCHSTONE_BULLET_VERSION,
      SETTINGS(CALLS "the manifold after five queries, four of them rocked by 1 mrad; default "
                     "margins; the time is that of all five"),
-     nullptr, nullptr, supports, prepare<rocked>, query, release, nullptr, nullptr},
+     nullptr, nullptr, supports_all, prepare<rocked>, query, release, nullptr, nullptr},
     {NAME("-hull"), TOUCHSTONE_BULLET_VERSION,
      SETTINGS(CALLS "one query with an empty manifold; btConvexHullShape and box with margin 0"),
-     "every cylinder as the regular prism with its corners on the rims", &sides, supports,
+     "every cylinder as the regular prism with its corners on the rims", &sides, supports_all,
      prepare_hull, query, release, hull_distance, nullptr}};
 
 // In single precision the last two would show nothing new.

@@ -19,7 +19,7 @@
 #include <coal/shape/geometric_shapes.h>
 #include <memory>
 
-#include "candidates/candidate.h"
+#include "candidates/adapter.hpp"
 
 namespace {
 
@@ -49,15 +49,6 @@ coal::Transform3s to_transform(const ts_pose& p) {
           Vector(p.position[0], p.position[1], p.position[2])};
 }
 
-void copy(const Vector& from, double (&to)[3]) { std::copy(from.data(), from.data() + 3, to); }
-
-void add(const Vector& position, ts_answer& answer) {
-  ts_point& point = answer.points[answer.point_count++];
-  copy(position, point.position);
-  std::copy(std::begin(answer.normal), std::end(answer.normal), point.normal);
-  point.depth = -answer.signed_distance;
-}
-
 }  // namespace
 
 struct ts_prepared {
@@ -73,19 +64,18 @@ ts_prepared* prepare(void*, const ts_shape* a, const ts_shape* b, double thresho
   return p;
 }
 
-void release(ts_prepared* prepared) { delete prepared; }
-
 template <bool patch>
 void query(ts_prepared* p, const ts_pose* a, const ts_pose* b, const double*, ts_answer* answer) {
   const coal::Transform3s at_a = to_transform(*a), at_b = to_transform(*b);
   coal::CollisionResult result;
   coal::collide(p->a.get(), at_a, p->b.get(), at_b, p->request, result);
-  answer->point_count = 0;
-  answer->status = result.isCollision() ? TS_CONTACT : TS_NONE;
+  touchstone::adapter::begin(*answer);
   if (!result.isCollision()) return;
   const coal::Contact& contact = result.getContact(0);
-  answer->signed_distance = contact.penetration_depth;
-  copy(-contact.normal, answer->normal);
+  const auto add = [&](const Vector& position) {
+    touchstone::adapter::add_point(position, Vector(-contact.normal), contact.penetration_depth,
+                                   *answer);
+  };
   if (patch) {
     const coal::ContactPatchRequest patch_request;
     coal::ContactPatchResult patches;
@@ -93,24 +83,23 @@ void query(ts_prepared* p, const ts_pose* a, const ts_pose* b, const double*, ts
     if (patches.numContactPatches() > 0) {
       const coal::ContactPatch& found = patches.getContactPatch(0);
       const std::size_t count = std::min<std::size_t>(found.size(), TOUCHSTONE_MAX_POINTS);
-      for (std::size_t i = 0; i < count; ++i)
-        add(found.getPoint(i * found.size() / count), *answer);
+      for (std::size_t i = 0; i < count; ++i) add(found.getPoint(i * found.size() / count));
     }
   }
-  if (answer->point_count == 0) add(contact.pos, *answer);
+  if (answer->point_count == 0) add(contact.pos);
 }
 
-int supports(void*, ts_shape_kind) { return 1; }
+using touchstone::adapter::release, touchstone::adapter::supports_all;
 
 const ts_candidate candidates[] = {
     {"coal", TOUCHSTONE_COAL_VERSION,
      "double precision; collide with default settings (GJK and EPA to 1e-6; half-space and sphere "
      "analytic)",
-     nullptr, nullptr, supports, prepare, query<false>, release, nullptr, nullptr},
+     nullptr, nullptr, supports_all, prepare, query<false>, release, nullptr, nullptr},
     {"coal-patch", TOUCHSTONE_COAL_VERSION,
      "double precision; collide, then computeContactPatch, with default settings", nullptr, nullptr,
-     supports, prepare, query<true>, release, nullptr, nullptr}};
-const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 2, candidates, nullptr, 0};
+     supports_all, prepare, query<true>, release, nullptr, nullptr}};
+const ts_plugin plugin = touchstone::adapter::plugin_of(candidates);
 
 }  // namespace
 

@@ -19,14 +19,14 @@
 //              middle of the two nearest points.
 // Threshold    collide has none. distance reports up to it.
 // Asserts      are active in Debian's libfcl: a failed one ends the process and counts as a crash.
-#include <algorithm>
 #include <fcl/fcl.h>
 #include <memory>
 
-#include "candidates/candidate.h"
+#include "candidates/adapter.hpp"
 
 namespace {
 
+using touchstone::adapter::add_point;
 using Vector = fcl::Vector3d;
 using Transform = fcl::Transform3d;
 using Geometry = std::unique_ptr<fcl::CollisionGeometryd>;
@@ -56,8 +56,6 @@ Transform to_transform(const ts_pose& p) {
   return t;
 }
 
-void copy(const Vector& from, double (&to)[3]) { std::copy(from.data(), from.data() + 3, to); }
-
 }  // namespace
 
 struct ts_prepared {
@@ -73,19 +71,6 @@ ts_prepared* prepare(void*, const ts_shape* a, const ts_shape* b, double thresho
                          b->kind == TS_PLANE || b->kind == TS_SPHERE};
 }
 
-void release(ts_prepared* prepared) { delete prepared; }
-
-void add(const Vector& position, const Vector& normal, double depth, ts_answer& answer) {
-  ts_point& point = answer.points[answer.point_count++];
-  copy(position, point.position);
-  copy(normal, point.normal);
-  point.depth = depth;
-  if (answer.point_count == 1 || -depth < answer.signed_distance) {
-    answer.signed_distance = -depth;
-    copy(normal, answer.normal);
-  }
-}
-
 template <fcl::GJKSolverType solver>
 void collide(ts_prepared* prepared, const ts_pose* a, const ts_pose* b, const double*,
              ts_answer* answer) {
@@ -94,15 +79,14 @@ void collide(ts_prepared* prepared, const ts_pose* a, const ts_pose* b, const do
   fcl::CollisionResultd result;
   const Transform at_a = to_transform(*a);
   fcl::collide(prepared->a.get(), at_a, prepared->b.get(), to_transform(*b), request, result);
-  answer->status = result.numContacts() > 0 ? TS_CONTACT : TS_NONE;
-  answer->point_count = 0;
+  touchstone::adapter::begin(*answer);
   const bool wrong_frame = solver == fcl::GST_INDEP && !prepared->own_routine;
   for (std::size_t i = 0; i < result.numContacts(); ++i) {
     const fcl::Contactd& c = result.getContact(i);
     if (wrong_frame) {
-      add(c.pos, -(at_a.linear() * c.normal), -c.penetration_depth, *answer);
+      add_point(c.pos, Vector(-(at_a.linear() * c.normal)), c.penetration_depth, *answer);
     } else {
-      add(c.pos, -c.normal, c.penetration_depth, *answer);
+      add_point(c.pos, Vector(-c.normal), -c.penetration_depth, *answer);
     }
   }
 }
@@ -113,18 +97,18 @@ void distance(ts_prepared* prepared, const ts_pose* a, const ts_pose* b, const d
   fcl::DistanceResultd result;
   const double d = fcl::distance(prepared->a.get(), to_transform(*a), prepared->b.get(),
                                  to_transform(*b), request, result);
-  answer->point_count = 0;
-  // Written so that NaN is reported, not dropped.
-  answer->status = d > prepared->threshold ? TS_NONE : TS_CONTACT;
+  touchstone::adapter::begin(*answer);
   const Vector& on_a = result.nearest_points[0];
   const Vector& on_b = result.nearest_points[1];
   const Vector line = d < 0 ? Vector(on_b - on_a) : Vector(on_a - on_b);
   const double length = line.norm();
-  add((on_a + on_b) / 2, length == 0 ? Vector::Zero() : Vector(line / length), -d, *answer);
+  const Vector normal = length == 0 ? Vector(Vector::Zero()) : Vector(line / length);
+  add_point(Vector((on_a + on_b) / 2), normal, d, *answer);
+  if (d > prepared->threshold) answer->status = TS_NONE;  // NaN is reported, not dropped
 }
 
-int supports_all(void*, ts_shape_kind) { return 1; }
-int supports_bounded(void*, ts_shape_kind kind) { return kind != TS_PLANE; }
+using touchstone::adapter::release, touchstone::adapter::supports_all,
+    touchstone::adapter::supports_bounded;
 
 const ts_candidate candidates[] = {
     {"fcl", TOUCHSTONE_FCL_VERSION,
@@ -139,7 +123,7 @@ const ts_candidate candidates[] = {
      "double precision; distance with enable_signed_distance, default tolerances (GJK and EPA); "
      "normal along the two nearest points; no half-space",
      nullptr, nullptr, supports_bounded, prepare, distance, release, nullptr, nullptr}};
-const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 3, candidates, nullptr, 0};
+const ts_plugin plugin = touchstone::adapter::plugin_of(candidates);
 
 }  // namespace
 

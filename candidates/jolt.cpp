@@ -35,7 +35,7 @@
 #include <algorithm>
 #include <string>
 
-#include "candidates/candidate.h"
+#include "candidates/adapter.hpp"
 
 namespace {
 
@@ -96,8 +96,6 @@ ts_prepared* prepare(void*, const ts_shape* a, const ts_shape* b, double thresho
   return p;
 }
 
-void release(ts_prepared* prepared) { delete prepared; }
-
 void add(const Vec3& on_a, const Vec3& on_b, double depth, const double (&origin)[3],
          ts_answer& answer) {
   ts_point& point = answer.points[answer.point_count++];
@@ -108,8 +106,7 @@ void add(const Vec3& on_a, const Vec3& on_b, double depth, const double (&origin
 }
 
 void query(ts_prepared* p, const ts_pose* a, const ts_pose* b, const double*, ts_answer* answer) {
-  answer->point_count = 0;
-  answer->status = TS_NONE;
+  touchstone::adapter::begin(*answer);
   const double(&origin)[3] = a->position;
   JPH::ClosestHitCollisionCollector<JPH::CollideShapeCollector> closest;
   const Vec3 one = Vec3::sReplicate(1);
@@ -145,7 +142,7 @@ void query(ts_prepared* p, const ts_pose* a, const ts_pose* b, const double*, ts
   }
 }
 
-int supports(void*, ts_shape_kind) { return 1; }
+using touchstone::adapter::release, touchstone::adapter::supports_all;
 
 const std::string version = std::to_string(JPH_VERSION_MAJOR) + '.' +
                             std::to_string(JPH_VERSION_MINOR) + '.' +
@@ -154,11 +151,11 @@ const ts_candidate candidates[] = {
     {"jolt-native", version.c_str(),
      "single precision; sCollideShapeVsShape and the manifold of a world; convex radius 0.05 m, at "
      "most half of the smallest half extent",
-     nullptr, nullptr, supports, prepare<true>, query, release, nullptr, nullptr},
+     nullptr, nullptr, supports_all, prepare<true>, query, release, nullptr, nullptr},
     {"jolt-native-margin-0", version.c_str(),
      "single precision; sCollideShapeVsShape and the manifold of a world; convex radius 0", nullptr,
-     nullptr, supports, prepare<false>, query, release, nullptr, nullptr}};
-const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 2, candidates, nullptr, 0};
+     nullptr, supports_all, prepare<false>, query, release, nullptr, nullptr}};
+const ts_plugin plugin = touchstone::adapter::plugin_of(candidates);
 
 }  // namespace
 

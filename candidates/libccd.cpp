@@ -12,12 +12,11 @@
 //              contact point, only somewhere between.
 // Threshold    libccd has none: it answers only if it finds the bodies touching.
 // Failure      -2, out of memory, is passed on as failed.
-#include <algorithm>
 #include <ccd/ccd.h>
 #include <ccd/quat.h>
 #include <cmath>
 
-#include "candidates/candidate.h"
+#include "candidates/adapter.hpp"
 
 static_assert(sizeof(ccd_real_t) == sizeof(double), "built against single-precision libccd");
 
@@ -107,20 +106,14 @@ void query(ts_prepared* p, const ts_pose* a, const ts_pose* b, const double*, ts
   double depth = 0;
   ccd_vec3_t direction, position;
   const int result = penetration(&p->a, &p->b, &p->ccd, &depth, &direction, &position);
-  answer->status = result == 0 ? TS_CONTACT : result == -2 ? TS_FAILED : TS_NONE;
+  touchstone::adapter::begin(*answer);
+  if (result == -2) answer->status = TS_FAILED;
   if (result != 0) return;
-  answer->point_count = 1;
-  answer->signed_distance = -depth;
-  ts_point& point = answer->points[0];
-  point.depth = depth;
-  for (int i = 0; i < 3; ++i) {
-    point.position[i] = position.v[i];
-    point.normal[i] = answer->normal[i] = -direction.v[i];
-  }
+  ccdVec3Scale(&direction, -1);
+  touchstone::adapter::add_point(position.v, direction.v, -depth, *answer);
 }
 
-int supports(void*, ts_shape_kind kind) { return kind != TS_PLANE; }
-void release(ts_prepared* prepared) { delete prepared; }
+using touchstone::adapter::release, touchstone::adapter::supports_bounded;
 
 const ts_parameter tolerance = {"tolerance", 1e-16, 1, 1e-4, 0, 1};
 
@@ -128,12 +121,14 @@ const ts_candidate candidates[] = {
     {"libccd-gjk", TOUCHSTONE_CCD_VERSION,
      "double precision; ccdGJKPenetration (GJK and EPA), epa_tolerance 1e-4 by default, at most "
      "100 iterations; no plane",
-     nullptr, &tolerance, supports, prepare, query<ccdGJKPenetration>, release, nullptr, nullptr},
+     nullptr, &tolerance, supports_bounded, prepare, query<ccdGJKPenetration>, release, nullptr,
+     nullptr},
     {"libccd-mpr", TOUCHSTONE_CCD_VERSION,
      "double precision; ccdMPRPenetration, mpr_tolerance 1e-4 by default, at most 100 iterations; "
      "no plane",
-     nullptr, &tolerance, supports, prepare, query<ccdMPRPenetration>, release, nullptr, nullptr}};
-const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 2, candidates, nullptr, 0};
+     nullptr, &tolerance, supports_bounded, prepare, query<ccdMPRPenetration>, release, nullptr,
+     nullptr}};
+const ts_plugin plugin = touchstone::adapter::plugin_of(candidates);
 
 }  // namespace
 

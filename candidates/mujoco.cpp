@@ -15,7 +15,6 @@
 //              answers separate bodies for all pairs.
 // Points       Midway between the two surfaces.
 // Threshold    Passed as the function's margin. Only the plane answers separate bodies.
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
@@ -26,7 +25,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "candidates/candidate.h"
+#include "candidates/adapter.hpp"
 #ifdef TOUCHSTONE_CURED
 #include "reference/engines/mujoco.hpp"
 #endif
@@ -145,36 +144,29 @@ void query(ts_prepared* p, const ts_pose* a, const ts_pose* b, const double*, ts
   const int count =
       p->collide(p->scene.model, p->scene.data, contacts, p->cylinder_first ? geom_a : geom_b,
                  p->cylinder_first ? geom_b : geom_a, p->threshold);
-  answer->point_count = std::min(count, TOUCHSTONE_MAX_POINTS);
-  answer->status = count > 0 ? TS_CONTACT : TS_NONE;
-  for (int i = 0; i < answer->point_count; ++i) {
-    ts_point& point = answer->points[i];
-    mju_copy3(point.position, contacts[i].pos);
-    mju_scl3(point.normal, contacts[i].frame, p->cylinder_first ? -1 : 1);
-    point.depth = -contacts[i].dist;
-    if (i == 0 || contacts[i].dist < answer->signed_distance) {
-      answer->signed_distance = contacts[i].dist;
-      mju_copy3(answer->normal, point.normal);
-    }
+  touchstone::adapter::begin(*answer);
+  for (int i = 0; i < count; ++i) {
+    double normal[3];
+    mju_scl3(normal, contacts[i].frame, p->cylinder_first ? -1 : 1);
+    touchstone::adapter::add_point(contacts[i].pos, normal, contacts[i].dist, *answer);
   }
 }
 
-int supports(void*, ts_shape_kind) { return 1; }
-void release(ts_prepared* prepared) { delete prepared; }
+using touchstone::adapter::release, touchstone::adapter::supports_all;
 
 const ts_candidate candidates[] = {
 #ifdef TOUCHSTONE_CURED
     {"mujoco+touchstone", mj_versionString(),
      "double precision; the pair's function in mjCOLLISIONFUNC with Touchstone's contacts of "
      "cylinders installed",
-     nullptr, nullptr, supports, prepare, query, release, nullptr, nullptr}};
+     nullptr, nullptr, supports_all, prepare, query, release, nullptr, nullptr}};
 #else
     {"mujoco", mj_versionString(),
      "double precision; the pair's function in mjCOLLISIONFUNC; plane analytic, others "
      "by libccd's MPR with MuJoCo's tolerance 1e-6; multiccd off",
-     nullptr, nullptr, supports, prepare, query, release, nullptr, nullptr}};
+     nullptr, nullptr, supports_all, prepare, query, release, nullptr, nullptr}};
 #endif
-const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 1, candidates, nullptr, 0};
+const ts_plugin plugin = touchstone::adapter::plugin_of(candidates);
 
 }  // namespace
 

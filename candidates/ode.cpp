@@ -17,14 +17,14 @@
 //              at every query.
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <memory>
 #include <ode/ode.h>
 #include <optional>
+#include <span>
 #include <vector>
 
-#include "candidates/candidate.h"
+#include "candidates/adapter.hpp"
 #include "candidates/model.hpp"
 #include "candidates/ode_library.hpp"
 #ifdef TOUCHSTONE_CURED
@@ -124,17 +124,9 @@ struct ts_prepared {
           contacts, contacts + TOUCHSTONE_MAX_POINTS, contacts + count,
           [](const dContactGeom& x, const dContactGeom& y) { return x.depth > y.depth; });
     }
-    answer.point_count = std::min(count, TOUCHSTONE_MAX_POINTS);
-    answer.status = answer.point_count > 0 ? TS_CONTACT : TS_NONE;
-    for (int i = 0; i < answer.point_count; ++i) {
-      ts_point& out = answer.points[i];
-      std::copy(contacts[i].pos, contacts[i].pos + 3, out.position);
-      std::copy(contacts[i].normal, contacts[i].normal + 3, out.normal);
-      out.depth = contacts[i].depth;
-      if (i == 0 || -out.depth < answer.signed_distance) {
-        answer.signed_distance = -out.depth;
-        std::copy(out.normal, out.normal + 3, answer.normal);
-      }
+    touchstone::adapter::begin(answer);
+    for (const dContactGeom& c : std::span(contacts, static_cast<std::size_t>(count))) {
+      touchstone::adapter::add_point(c.pos, c.normal, -c.depth, answer);
     }
   }
 
@@ -168,7 +160,7 @@ struct ts_prepared {
 
 namespace {
 
-int supports(void*, ts_shape_kind) { return 1; }
+using touchstone::adapter::release, touchstone::adapter::supports_all;
 
 ts_prepared* prepare(void*, const ts_shape* a, const ts_shape* b, double, double) {
   touchstone::initialise_ode();
@@ -183,15 +175,13 @@ void query(ts_prepared* prepared, const ts_pose* a, const ts_pose* b, const doub
   prepared->query(*a, *b, *answer);
 }
 
-void release(ts_prepared* prepared) { delete prepared; }
-
 #ifdef TOUCHSTONE_CURED
 
 const ts_candidate candidates[] = {
     {"ode+touchstone", TOUCHSTONE_ODE_VERSION,
      "double precision; dCollide with Touchstone's contacts of cylinders installed, asked for 16; "
      "positions halfway between the surfaces",
-     nullptr, nullptr, supports, prepare, query, release, nullptr, nullptr}};
+     nullptr, nullptr, supports_all, prepare, query, release, nullptr, nullptr}};
 
 #else
 
@@ -210,18 +200,17 @@ const ts_candidate candidates[] = {
     {"ode", TOUCHSTONE_ODE_VERSION,
      "double precision; dCollide asked for 16 contacts; cylinder and capsule through libccd's MPR, "
      "box by separating axes and clipping, plane and sphere analytic; positions as ODE gives them",
-     nullptr, nullptr, supports, prepare, query, release, nullptr, nullptr},
+     nullptr, nullptr, supports_all, prepare, query, release, nullptr, nullptr},
     {"ode-mesh", TOUCHSTONE_ODE_VERSION,
      "double precision; dCollide of a triangle mesh and a primitive, asked for 64 contacts of "
      "which "
      "the 16 deepest are kept",
      "the cylinder A as the triangle mesh of the regular prism with its corners on the rims",
-     &sides, supports, prepare_mesh, query, release, model_distance, nullptr}};
+     &sides, supports_all, prepare_mesh, query, release, model_distance, nullptr}};
 
 #endif
 
-const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, std::size(candidates), candidates, nullptr,
-                          0};
+const ts_plugin plugin = touchstone::adapter::plugin_of(candidates);
 
 }  // namespace
 

@@ -10,11 +10,12 @@
 #include <type_traits>
 #include <utility>
 
-#include "candidates/candidate.h"
+#include "candidates/adapter.hpp"
 #include "reference/touchstone.hpp"
 
 using touchstone::Cylinder;
 using touchstone::Sphere;
+using touchstone::adapter::copy, touchstone::adapter::release, touchstone::adapter::supports_all;
 
 #ifdef TOUCHSTONE_SINGLE_PRECISION
 using Scalar = float;
@@ -63,11 +64,7 @@ Pose to_pose(const ts_pose& p) {
                                         static_cast<Scalar>(q[2]), static_cast<Scalar>(q[3])));
 }
 
-void copy(const Vec3& from, double (&to)[3]) {
-  for (int i = 0; i < 3; ++i) to[i] = from[i];
-}
-
-void copy(const Contact& contact, double threshold, ts_answer& answer) {
+void fill(const Contact& contact, double threshold, ts_answer& answer) {
   answer.status = contact.signed_distance <= threshold ? TS_CONTACT : TS_NONE;
   copy(contact.normal, answer.normal);
   answer.signed_distance = contact.signed_distance;
@@ -85,15 +82,13 @@ struct PreparedPair : ts_prepared {
   PreparedPair(const Cylinder& cylinder, Other shape) : a(cylinder), b(std::move(shape)) {}
   void query(const ts_pose& pose_a, const ts_pose& pose_b, const Vec3* previous_normal,
              ts_answer& answer) const override {
-    copy(contact(a, to_pose<Cylinder>(pose_a), b, to_pose<Other>(pose_b),
+    fill(contact(a, to_pose<Cylinder>(pose_a), b, to_pose<Other>(pose_b),
                  static_cast<Scalar>(threshold), previous_normal),
          threshold, answer);
   }
   Cylinder a;
   Other b;
 };
-
-int supports(void*, ts_shape_kind) { return 1; }
 
 ts_prepared* prepare(void*, const ts_shape* a, const ts_shape* b, double threshold, double) {
   const Cylinder cylinder(a->size[0], a->size[1]);
@@ -132,11 +127,9 @@ void query(ts_prepared* prepared, const ts_pose* a, const ts_pose* b, const doub
   answer->status = TS_FAILED;  // a position beyond what float holds
 }
 
-void release(ts_prepared* prepared) { delete prepared; }
-
-const ts_candidate candidates[] = {{name, TOUCHSTONE_VERSION, settings, nullptr, nullptr, supports,
-                                    prepare, query, release, nullptr, nullptr}};
-const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 1, candidates, nullptr, 0};
+const ts_candidate candidates[] = {{name, TOUCHSTONE_VERSION, settings, nullptr, nullptr,
+                                    supports_all, prepare, query, release, nullptr, nullptr}};
+const ts_plugin plugin = touchstone::adapter::plugin_of(candidates);
 
 }  // namespace
 

@@ -17,11 +17,12 @@
 #include <cstdint>
 #include <vector>
 
+#include "candidates/adapter.hpp"
 #include "candidates/model.hpp"
 
 using touchstone::ModelPair;
 using touchstone::Separation;
-using touchstone::Vec3;
+using touchstone::adapter::copy, touchstone::adapter::release, touchstone::adapter::supports_all;
 
 struct ts_prepared {
   ModelPair pair;
@@ -51,8 +52,6 @@ ts_prepared* prepare_many(void*, const ts_shape* a, const ts_shape* b, double th
   return new ts_prepared{ModelPair(*a, *b, model), threshold};
 }
 
-void copy(const Vec3& from, double (&to)[3]) { std::copy(from.data(), from.data() + 3, to); }
-
 void query(ts_prepared* p, const ts_pose* a, const ts_pose* b, const double*, ts_answer* answer) {
   p->parts.clear();
   const Separation nearest = p->pair.separation(*a, *b, &p->parts);
@@ -75,7 +74,7 @@ void query(ts_prepared* p, const ts_pose* a, const ts_pose* b, const double*, ts
   for (const Separation& s : p->parts) {
     if (s.distance > p->threshold) continue;
     ts_point& point = answer->points[answer->point_count++];
-    copy((s.on_a + s.on_b) / 2, point.position);
+    copy(touchstone::Vec3((s.on_a + s.on_b) / 2), point.position);
     copy(s.normal, point.normal);
     point.depth = -s.distance;
   }
@@ -92,29 +91,27 @@ double model_distance(ts_prepared* p, const ts_pose* a, const ts_pose* b) {
   return p->pair.separation(*a, *b).distance;
 }
 
-int supports(void*, ts_shape_kind) { return 1; }
-void release(ts_prepared* prepared) { delete prepared; }
-
 const ts_parameter spheres = {"number of spheres", 1, 256, 8, 1, 0};
 const ts_parameter sides = {"number of sides", 3, 128, 16, 1, 0};
 
 const ts_candidate candidates[] = {
     {"capsule", TOUCHSTONE_VERSION, "double precision; exact for its model",
-     "every cylinder as the largest capsule of its length inside it", nullptr, supports,
+     "every cylinder as the largest capsule of its length inside it", nullptr, supports_all,
      prepare<touchstone::inscribed_capsule>, query, release, model_distance, nullptr},
     {"capsule-circumscribed", TOUCHSTONE_VERSION, "double precision; exact for its model",
-     "every cylinder as a capsule of its radius around it, round ends on top", nullptr, supports,
-     prepare<touchstone::circumscribed_capsule>, query, release, model_distance, nullptr},
+     "every cylinder as a capsule of its radius around it, round ends on top", nullptr,
+     supports_all, prepare<touchstone::circumscribed_capsule>, query, release, model_distance,
+     nullptr},
     {"spheres", TOUCHSTONE_VERSION, "double precision; exact for its model",
      "every cylinder as spheres inside it, in a row along the axis, or in a ring when it is flat",
-     &spheres, supports, prepare_many<touchstone::inscribed_spheres>, query, release,
+     &spheres, supports_all, prepare_many<touchstone::inscribed_spheres>, query, release,
      model_distance, nullptr},
     {"prism", TOUCHSTONE_VERSION,
      "double precision; separating axes, closest features where a sphere or capsule is apart; "
      "exact for its model; one point",
-     "every cylinder as the regular prism with its corners on the rims", &sides, supports,
+     "every cylinder as the regular prism with its corners on the rims", &sides, supports_all,
      prepare_many<touchstone::inscribed_prism>, query, release, model_distance, nullptr}};
-const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 4, candidates, nullptr, 0};
+const ts_plugin plugin = touchstone::adapter::plugin_of(candidates);
 
 }  // namespace
 

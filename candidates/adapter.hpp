@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstddef>
+
+#include "candidates/candidate.h"
+
+/// What adapters of engines have in common.
+namespace touchstone::adapter {
+
+/// Copies three numbers that can be indexed.
+template <class Vector>
+void copy(const Vector& from, double (&to)[3]) {
+  for (int i = 0; i < 3; ++i) to[i] = static_cast<double>(from[i]);
+}
+
+/// Begins an answer to which points are added.
+inline void begin(ts_answer& answer) {
+  answer.status = TS_NONE;
+  answer.point_count = 0;
+}
+
+/// Adds a contact point `distance` apart, negative inside, unless there is no room for it. The
+/// first of the deepest gives the answer's distance and normal.
+template <class Position, class Normal>
+void add_point(const Position& position, const Normal& normal, double distance, ts_answer& answer) {
+  if (answer.point_count == TOUCHSTONE_MAX_POINTS) return;
+  ts_point& point = answer.points[answer.point_count++];
+  copy(position, point.position);
+  copy(normal, point.normal);
+  point.depth = -distance;
+  if (answer.status == TS_CONTACT && !(distance < answer.signed_distance)) return;
+  answer.status = TS_CONTACT;
+  answer.signed_distance = distance;
+  copy(normal, answer.normal);
+}
+
+// Functions of a ts_candidate.
+
+inline int supports_all(void* /*context*/, ts_shape_kind /*other*/) { return 1; }
+/// All but the half-space.
+inline int supports_bounded(void* /*context*/, ts_shape_kind other) { return other != TS_PLANE; }
+template <class Prepared>
+void release(Prepared* prepared) {
+  delete prepared;
+}
+
+/// The plug-in of these candidates.
+template <std::size_t count>
+ts_plugin plugin_of(const ts_candidate (&candidates)[count]) {
+  return {TOUCHSTONE_INTERFACE_VERSION, static_cast<int>(count), candidates, nullptr, 0};
+}
+
+}  // namespace touchstone::adapter
