@@ -170,7 +170,7 @@ void write_shard(const ShardState& state, const std::filesystem::path& file) {
 }
 
 ShardState read_shard(const std::filesystem::path& file, const char* field) {
-  // Of all candidates and classes, 5 KB for each of 86,000 tallies once the histograms fill up.
+  // Of all candidates and classes, 7 KB for each of 105,000 tallies once the histograms fill up.
   constexpr std::size_t max_shard_size = std::size_t{1} << 32;
   std::error_code error;
   const bool ordinary = std::filesystem::is_regular_file(file, error);
