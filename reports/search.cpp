@@ -16,6 +16,7 @@
 #include "properties/files/configuration_json.hpp"
 #include "properties/laws/failure_file.hpp"
 #include "properties/random_step.hpp"
+#include "properties/stable_hash.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone {
@@ -115,13 +116,6 @@ class Heights {
   Bar bar_;
 };
 
-/// FNV-1a, as identity.cpp hashes class names: the same on all platforms.
-std::uint64_t hash_of(std::string_view text) {
-  std::uint64_t hash = 0xcbf29ce484222325U;
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
-  return hash;
-}
-
 /// One climb of a pair and goal, by its number.
 struct ClimbTask {
   std::size_t of_goal;  ///< place in the results
@@ -150,7 +144,7 @@ class Climb {
         heights_(candidate, task.goal, search.bar),
         draw_(rc::Random(rc::Random::Key{
             search.seed, task.number,
-            hash_of(fmt::format("{}/{}", pair_name(task.pair), goal_name(task.goal))), 1})) {}
+            stable_hash(fmt::format("{}/{}", pair_name(task.pair), goal_name(task.goal))), 1})) {}
 
   /// The highest place of all that fits into the budget.
   Summit run() {
