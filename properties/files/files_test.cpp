@@ -492,6 +492,13 @@ TEST(Bytes, ThatEndTooEarlyAreRefused) {
   const std::string bytes = to_bytes(parcel());
   EXPECT_THROW(from_bytes<Parcel>(bytes.substr(0, bytes.size() - 1)), std::logic_error);
   EXPECT_THROW(from_bytes<Parcel>(""), std::logic_error);
+  const std::string endless = to_bytes(std::size_t{1} << 40);  // of which nothing is there
+  EXPECT_THROW(from_bytes<std::vector<double>>(endless), std::logic_error);
+}
+
+TEST(Bytes, HaveNoneBetweenTheMembersOfAType) {
+  EXPECT_EQ(to_bytes(std::optional<double>()).size(), 1u);
+  EXPECT_EQ(to_bytes(std::optional<double>(1)).size(), 9u);
 }
 
 }  // namespace
