@@ -191,7 +191,7 @@ std::vector<std::optional<Sample>> sample_cells(const Scorer& scorer,
   std::vector<std::optional<Sample>> result(counts.size());
   for (std::size_t cell = 0; cell < counts.size(); ++cell) {
     const std::vector<Sample*>& parts = units_of[cell];
-    if (parts.size() < EqualUnits{counts[cell]}.units()) continue;
+    if (parts.empty() || parts.size() < EqualUnits{counts[cell]}.units()) continue;
     result[cell] = sum_of(0, parts.size(), [&](std::size_t i) { return std::move(*parts[i]); });
   }
   return result;
