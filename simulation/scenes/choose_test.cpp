@@ -135,28 +135,25 @@ SceneFile cans_on_pedestals(const std::vector<Vec3>& places) {
 
 // Both axes are the same line, on which a capsule's pole stands on the other's.
 TEST(Choose, ACapsuleThatBalancesOnItsPoleDoesNotStand) {
-  for (const auto& places :
-       {std::vector{Vec3(0, 0, 0)},
-        std::vector{Vec3(0.2, 0, 0), Vec3(-0.2, 0, 0), Vec3(0, 0.2, 0), Vec3(0, -0.2, 0)}}) {
-    const SceneFile file = cans_on_pedestals(places);
-    ChooseOptions options{find_candidates({"capsule"}), 2, {}, {.disturbances = 8}};
-    const Choice disturbed = choose(file, options);
-    options.trials.disturbances = 0;
-    const Choice as_written = choose(file, options);
-    EXPECT_TRUE(run_of(as_written, "capsule").holds());
-    EXPECT_EQ(run_of(as_written, "capsule").trials, 1U);
+  const SceneFile file =
+      cans_on_pedestals({Vec3(0.2, 0, 0), Vec3(-0.2, 0, 0), Vec3(0, 0.2, 0), Vec3(0, -0.2, 0)});
+  ChooseOptions options{find_candidates({"capsule"}), 2, {}, {.disturbances = 8}};
+  const Choice disturbed = choose(file, options);
+  options.trials.disturbances = 0;
+  const Choice as_written = choose(file, options);
+  EXPECT_TRUE(run_of(as_written, "capsule").holds());
+  EXPECT_EQ(run_of(as_written, "capsule").trials, 1U);
 
-    const SceneRun& capsule = run_of(disturbed, "capsule");
-    EXPECT_FALSE(capsule.holds());
-    EXPECT_GT(capsule.disturbance, 0U);
-    EXPECT_LT(capsule.held, capsule.trials);
-    EXPECT_LT(capsule.trials, 9U);  // it ended early
-    ASSERT_TRUE(capsule.evidence);
-    EXPECT_EQ(capsule.evidence->candidate, "capsule");
-    EXPECT_FALSE(disturbed.impossible);
-    EXPECT_EQ(disturbed.answer, 0U);
-    EXPECT_EQ(disturbed.runs[0].held, 1 + disturbed.trials.of_answer());
-  }
+  const SceneRun& capsule = run_of(disturbed, "capsule");
+  EXPECT_FALSE(capsule.holds());
+  EXPECT_GT(capsule.disturbance, 0U);
+  EXPECT_LT(capsule.held, capsule.trials);
+  EXPECT_LT(capsule.trials, 9U);  // it ended early
+  ASSERT_TRUE(capsule.evidence);
+  EXPECT_EQ(capsule.evidence->candidate, "capsule");
+  EXPECT_FALSE(disturbed.impossible);
+  EXPECT_EQ(disturbed.answer, 0U);
+  EXPECT_EQ(disturbed.runs[0].held, 1 + disturbed.trials.of_answer());
 }
 
 /// The model of the first kind of pairs whose bodies' text has this in it.
