@@ -105,6 +105,9 @@ struct KnownFault {
   double min_error;
   Cure cure;
 };
+void PrintTo(const KnownFault& fault, std::ostream* out) {
+  *out << fault.engine << ' ' << fault.experiment;
+}
 class KnownFaults : public testing::TestWithParam<KnownFault> {};
 
 TEST_P(KnownFaults, AreMended) {
