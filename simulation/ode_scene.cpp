@@ -1,6 +1,7 @@
 #include "simulation/ode_scene.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <utility>
 
@@ -118,6 +119,15 @@ void OdeJoint::prepare(double time, double step) {
 
 void OdeJoint::follow(double step) {
   if (joint_.kind == JointKind::hinge) position_ += step * dJointGetHingeAngleRate(made_);
+}
+
+void set_materials(dContact& contact, const Material& a, const Material& b) {
+  dSurfaceParameters& surface = contact.surface;
+  surface.mode = dContactApprox1;
+  surface.mu = std::sqrt(a.friction * b.friction);
+  surface.bounce = std::max(a.restitution, b.restitution);
+  surface.bounce_vel = 0.01;  // m/s, below which nothing bounces
+  if (surface.bounce > 0) surface.mode |= dContactBounce;
 }
 
 void set_belt(dContact& contact, const Vec3& belt, bool is_first_null) {

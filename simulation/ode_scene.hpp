@@ -41,6 +41,10 @@ class OdeJoint {
   double position_ = 0;  ///< rad or m; once followed, where the step should have led
 };
 
+/// Gives a contact the materials of its bodies: the geometric mean of their friction, Coulomb's as
+/// a pyramid, and the larger restitution.
+void set_materials(dContact& contact, const Material& a, const Material& b);
+
 /// Lets the surface of a contact's first body move along that of the second at a velocity, as a
 /// belt does. The contact has its fdir1. If ODE's first body of the joint is null, the second
 /// stands in for it, with the normal turned round.

@@ -17,8 +17,6 @@ namespace touchstone {
 namespace {
 
 constexpr double error_reduction = 0.2;  // ERP
-/// Impact speed below which nothing bounces, m/s.
-constexpr double min_bounce_speed = 0.01;
 /// Slip below which its direction is rounding, and any direction serves, m/s.
 constexpr double min_slip = 1e-12;
 
@@ -262,16 +260,9 @@ Vec3 World::State::impending_slip(int a, int b, const Vec3& position) const {
 }
 
 void World::State::add_joint(int a, int b, dContactGeom geom) {
-  const Material &material_a = scene.bodies[a].material, &material_b = scene.bodies[b].material;
   dContact contact{};
   contact.geom = geom;
-  contact.surface.mode = dContactApprox1;
-  contact.surface.mu = std::sqrt(material_a.friction * material_b.friction);
-  if (const double bounce = std::max(material_a.restitution, material_b.restitution); bounce > 0) {
-    contact.surface.mode |= dContactBounce;
-    contact.surface.bounce = bounce;
-    contact.surface.bounce_vel = min_bounce_speed;
-  }
+  set_materials(contact, scene.bodies[a].material, scene.bodies[b].material);
   const Vec3 normal(geom.normal);
   const auto along = [&](const Vec3& v) { return Vec3(v - v.dot(normal) * normal); };
   const auto surface_velocity = [&](int i) {

@@ -15,8 +15,6 @@
 // Belts     The velocity of a contact's surfaces (dContactMotion1) along its first direction.
 // Drives    Kinematic bodies with the velocity that leads to their next pose, where they are then
 //           put.
-#include <algorithm>
-#include <cmath>
 #include <ode/ode.h>
 #include <optional>
 
@@ -120,16 +118,10 @@ class OdeWorld : public EngineWorld {
   }
 
   void add(dContact& contact, int a, int b) {
-    const Material &first = scene_.bodies[a].material, &second = scene_.bodies[b].material;
-    dSurfaceParameters& surface = contact.surface;
-    surface.mode = dContactApprox1;
-    surface.mu = std::sqrt(first.friction * second.friction);
-    surface.bounce = std::max(first.restitution, second.restitution);
-    surface.bounce_vel = 0.01;  // as in our own world
-    if (surface.bounce > 0) surface.mode |= dContactBounce;
+    set_materials(contact, scene_.bodies[a].material, scene_.bodies[b].material);
     const Vec3 moves = belt(a, b, Vec3(contact.geom.normal));
     if (const double speed = moves.norm(); speed > 0) {
-      surface.mode |= dContactFDir1;
+      contact.surface.mode |= dContactFDir1;
       for (int k = 0; k < 3; ++k) contact.fdir1[k] = moves[k] / speed;
       set_belt(contact, moves, !body_of(a));
     }
