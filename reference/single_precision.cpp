@@ -1,18 +1,12 @@
 #include "single_precision.hpp"
 
 #include <algorithm>
-#include <limits>
 
 #include "batch.hpp"
 
 namespace touchstone {
 namespace {
 
-float rounded(double x) {
-  constexpr double most = std::numeric_limits<float>::max();
-  return static_cast<float>(std::clamp(x, -most, most));
-}
-Eigen::Vector3f rounded(const Vec3& x) { return {rounded(x.x()), rounded(x.y()), rounded(x.z())}; }
 void round_into(bool from, bool& to) { to = from; }
 
 /// Calls ask(poses_a, poses_b, results) of poses in double, some after the others.
@@ -42,9 +36,6 @@ FloatPose::FloatPose(const Eigen::Vector3f& position, const Eigen::Quaternionf& 
   in_double();  // throws, and names what is wrong
 }
 
-void round_into(const SignedDistance& from, FloatSignedDistance& to) {
-  to = {rounded(from.value), rounded(from.normal)};
-}
 void round_into(const Contact& from, FloatContact& to) {
   to.normal = rounded(from.normal);
   to.signed_distance = rounded(from.signed_distance);

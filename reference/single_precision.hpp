@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <limits>
 #include <span>
 
 #include "contact.hpp"
@@ -55,8 +57,16 @@ struct FloatContact {
   }
 };
 
-/// Of answers in double.
-void round_into(const SignedDistance& from, FloatSignedDistance& to);
+inline float rounded(double x) {
+  constexpr double most = std::numeric_limits<float>::max();
+  return static_cast<float>(std::clamp(x, -most, most));
+}
+inline Eigen::Vector3f rounded(const Vec3& x) {
+  return {rounded(x.x()), rounded(x.y()), rounded(x.z())};
+}
+inline void round_into(const SignedDistance& from, FloatSignedDistance& to) {
+  to = {rounded(from.value), rounded(from.normal)};
+}
 void round_into(const Contact& from, FloatContact& to);
 
 // As in contact.hpp. `Other` is Plane, Sphere, Capsule, Cylinder or Box.
