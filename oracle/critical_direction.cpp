@@ -104,15 +104,15 @@ std::unique_ptr<CriticalDirection> rational_direction(IntegerVector n,
   return std::make_unique<RationalDirection>(std::move(n), std::move(family), false);
 }
 
-Side at_vertex(const BallDifference& balls, unsigned signs, const BallVector& n,
-               std::optional<unsigned> skipped) {
-  Side result = Side::yes;
+Certainty at_vertex(const BallDifference& balls, unsigned signs, const BallVector& n,
+                    std::optional<unsigned> skipped) {
+  Certainty result = Certainty::yes;
   for (unsigned i = 0; i < balls.segments(); ++i) {
     if (i == skipped) continue;
     const Ball along = dot(balls.axis(i), n);
     const bool positive_side = (signs >> i & 1U) != 0;
-    if (positive_side ? along.is_negative() : along.is_positive()) return Side::no;
-    if (!(positive_side ? along.is_positive() : along.is_negative())) result = Side::undecided;
+    if (positive_side ? along.is_negative() : along.is_positive()) return Certainty::no;
+    if (!(positive_side ? along.is_positive() : along.is_negative())) result = Certainty::undecided;
   }
   return result;
 }

@@ -126,11 +126,11 @@ std::vector<IntegerVector> signed_axes(const Difference& difference, unsigned si
 /// arc. An arc without ends is empty.
 DirectionFamily sector(const IntegerVector& line, const std::vector<IntegerVector>& inward);
 
-enum class Side { no, undecided, yes };
+enum class Certainty { no, undecided, yes };
 
 /// Is the direction on the side of every segment's axis that `signs` says? Undecided where balls
 /// contain zero.
-Side at_vertex(const BallDifference& balls, unsigned signs, const BallVector& n,
-               std::optional<unsigned> skipped = std::nullopt);
+Certainty at_vertex(const BallDifference& balls, unsigned signs, const BallVector& n,
+                    std::optional<unsigned> skipped = std::nullopt);
 
 }  // namespace touchstone::oracle

@@ -21,7 +21,7 @@ class RimVertexDirection : public CriticalDirection {
                std::vector<DirectionBound>& out) override {
     const BallVector n = direction();
     // Outside the rim no direction is zero, although its ball may contain zero at this precision.
-    if (at_vertex(balls, signs_, n) != Side::no) out.push_back({balls.gap(n), n});
+    if (at_vertex(balls, signs_, n) != Certainty::no) out.push_back({balls.gap(n), n});
   }
 
   // |n| = inflation, that is |q|² + radius² − inflation² = 2 radius |q⊥|.
@@ -33,7 +33,7 @@ class RimVertexDirection : public CriticalDirection {
                         4 * radius_ * radius_ * dot(across_, across_)) {
       return ZeroGap::unknown;
     }
-    return at_vertex(BallDifference(difference), signs_, direction()) == Side::yes
+    return at_vertex(BallDifference(difference), signs_, direction()) == Certainty::yes
                ? ZeroGap::zero
                : ZeroGap::at_most_zero;
   }
@@ -131,7 +131,7 @@ class RimLineDirection : public CriticalDirection {
   void enclose(const Difference&, const BallDifference& balls,
                std::vector<DirectionBound>& out) override {
     const BallVector n = direction();
-    if (at_vertex(balls, profile_.signs, n, profile_.segment) == Side::no) return;
+    if (at_vertex(balls, profile_.signs, n, profile_.segment) == Certainty::no) return;
     out.push_back({balls.gap(n), n});
   }
 
@@ -144,7 +144,7 @@ class RimLineDirection : public CriticalDirection {
     const Polynomial c = Integer(profile_.flat * profile_.flat) * n_n;
     if (!is_zero_here(a, b, c)) return ZeroGap::unknown;
     const BallDifference balls(difference);
-    return at_vertex(balls, profile_.signs, direction(), profile_.segment) == Side::yes
+    return at_vertex(balls, profile_.signs, direction(), profile_.segment) == Certainty::yes
                ? ZeroGap::zero
                : ZeroGap::at_most_zero;
   }

@@ -28,6 +28,9 @@ struct RimPair {
   Polynomial polynomial() const;
   /// Times norm².
   RimSlope<Ball> slope(int branch) const;
+  /// norm² w·u2 and norm² |w|², of rim 1's point relative to rim 2's centre.
+  Polynomial height() const;
+  Polynomial distance_squared() const;
 
   Frame rim1;
   Frame rim2;
@@ -53,7 +56,7 @@ class StationaryPair {
   std::vector<BallVector> points_of_rim2(int branch, bool& undecided) const;
   void enclose(const BallVector& y, std::vector<DirectionBound>& out) const;
   /// Is n an outward normal of both rims at their points?
-  Side is_outward(const BallVector& n, const BallVector& y) const;
+  Certainty is_outward(const BallVector& n, const BallVector& y) const;
 
   const BallDifference& difference_;
   BallVector radial_, tangent_, w_, axis2_;
@@ -108,12 +111,12 @@ std::vector<BallVector> StationaryPair::points_of_rim2(int branch, bool& undecid
   return points;
 }
 
-Side StationaryPair::is_outward(const BallVector& n, const BallVector& y) const {
+Certainty StationaryPair::is_outward(const BallVector& n, const BallVector& y) const {
   const Ball signs[] = {dot(n, radial_), -dot(n, y), dot(n, up_[0]), dot(n, up_[1])};
-  Side side = Side::yes;
+  Certainty side = Certainty::yes;
   for (const Ball& s : signs) {
-    if (s.is_negative()) return Side::no;
-    if (!s.is_positive()) side = Side::undecided;
+    if (s.is_negative()) return Certainty::no;
+    if (!s.is_positive()) side = Certainty::undecided;
   }
   return side;
 }
@@ -137,8 +140,8 @@ void StationaryPair::enclose(const BallVector& y, std::vector<DirectionBound>& o
     if (!dot(inner, outer).is_negative()) out.push_back({distance, std::nullopt});
     return;
   }
-  if (is_outward(n, y) != Side::no) out.push_back({difference_.gap(n), n});
-  if (is_outward(-n, y) != Side::no) out.push_back({difference_.gap(-n), -n});
+  if (is_outward(n, y) != Certainty::no) out.push_back({difference_.gap(n), n});
+  if (is_outward(-n, y) != Certainty::no) out.push_back({difference_.gap(-n), -n});
 }
 
 void StationaryPair::enclose(int branch, std::vector<DirectionBound>& out) const {
@@ -149,7 +152,7 @@ void StationaryPair::enclose(int branch, std::vector<DirectionBound>& out) const
 
 bool StationaryPair::touches_outward() const {
   const BallVector n = cross(tangent_, cross(axis2_, w_));
-  return is_outward(n, w_) == Side::yes || is_outward(-n, w_) == Side::yes;
+  return is_outward(n, w_) == Certainty::yes || is_outward(-n, w_) == Certainty::yes;
 }
 
 /// (1 + t²)(α + β cos θ + γ sin θ) as a polynomial in t = tan(θ/2).
@@ -157,24 +160,29 @@ Polynomial in_half_angle(const Integer& constant, const Integer& cosine, const I
   return {Integer(constant + cosine), Integer(2 * sine), Integer(constant - cosine)};
 }
 
+Polynomial RimPair::height() const {
+  return in_half_angle(Integer(-dot(q, rim2.axis)), radius1 * dot(rim2.axis, rim1.e),
+                       radius1 * dot(rim2.axis, rim1.f));
+}
+
+Polynomial RimPair::distance_squared() const {
+  return in_half_angle(radius1 * radius1 * norm * norm + dot(q, q),
+                       Integer(-2 * radius1 * dot(q, rim1.e)),
+                       Integer(-2 * radius1 * dot(q, rim1.f)));
+}
+
 // Every dot product of two vectors carries a factor norm²; F is scaled by norm^8 (1 + t²)⁴.
 Polynomial RimPair::polynomial() const {
   const Integer n2 = norm * norm;
   const Integer q_e = dot(q, rim1.e), q_f = dot(q, rim1.f);
   const Integer u_e = dot(rim2.axis, rim1.e), u_f = dot(rim2.axis, rim1.f);
-  const Integer q_u = dot(q, rim2.axis);
-  const Integer q_q = dot(q, q);
-  const Integer& r1 = radius1;
-
   const Polynomial one{1, 0, 1};
   const Polynomial q_t = in_half_angle(0, q_f, Integer(-q_e));  // norm² q·t1
-  const Polynomial w_w =                                        // norm² |w|²
-      in_half_angle(r1 * r1 * n2 + q_q, Integer(-2 * r1 * q_e), Integer(-2 * r1 * q_f));
-  const Polynomial w_u = in_half_angle(Integer(-q_u), r1 * u_e, r1 * u_f);  // norm² w·u2
-  const Polynomial u_t = in_half_angle(0, u_f, Integer(-u_e));              // norm² u2·t1
+  const Polynomial w_u = height();
+  const Polynomial u_t = in_half_angle(0, u_f, Integer(-u_e));  // norm² u2·t1
 
-  const Polynomial across_squared = n2 * (w_w * one) - w_u * w_u;  // norm⁴ |w⊥|²
-  const Polynomial across_t = n2 * (q_t * one) + w_u * u_t;        // −norm⁴ w⊥·t1
+  const Polynomial across_squared = n2 * (distance_squared() * one) - w_u * w_u;  // norm⁴ |w⊥|²
+  const Polynomial across_t = n2 * (q_t * one) + w_u * u_t;  // −norm⁴ w⊥·t1
   return q_t * q_t * across_squared - Integer(radius2 * radius2) * (across_t * across_t);
 }
 
@@ -215,21 +223,6 @@ std::vector<mpq_class> spurious_points(const RimPair& rims) {
   return result;
 }
 
-/// Both polynomials vanish where rim 1's point lies on rim 2: in its plane, and at its radius.
-struct OnRim2 {
-  Polynomial in_plane, at_radius;
-};
-
-OnRim2 on_rim2(const RimPair& rims) {
-  const Integer n2 = rims.norm * rims.norm;
-  const Integer& r1 = rims.radius1;
-  const Integer q_e = dot(rims.q, rims.rim1.e), q_f = dot(rims.q, rims.rim1.f);
-  const Integer u_e = dot(rims.rim2.axis, rims.rim1.e), u_f = dot(rims.rim2.axis, rims.rim1.f);
-  return {in_half_angle(Integer(-dot(rims.q, rims.rim2.axis)), r1 * u_e, r1 * u_f),
-          in_half_angle((r1 * r1 - rims.radius2 * rims.radius2) * n2 + dot(rims.q, rims.q),
-                        Integer(-2 * r1 * q_e), Integer(-2 * r1 * q_f))};
-}
-
 class RimRimDirection : public CriticalDirection {
  public:
   RimRimDirection(const RimPair& rims, CurveRoot t, bool of_a_family)
@@ -242,9 +235,12 @@ class RimRimDirection : public CriticalDirection {
 
   // Touching rims share a point of both bodies, so that no gap is above zero.
   ZeroGap zero_gap(const Difference& difference) override {
-    const OnRim2 on = on_rim2(rims_);
-    if (!t_.is_root_of(rims_, on.in_plane) || !t_.is_root_of(rims_, on.at_radius))
+    // Rim 1's point lies on rim 2: in its plane, and at its radius.
+    const Integer radius_squared = rims_.norm * rims_.norm * rims_.radius2 * rims_.radius2;
+    const Polynomial beyond = rims_.distance_squared() - radius_squared * Polynomial{1, 0, 1};
+    if (!t_.is_root_of(rims_, rims_.height()) || !t_.is_root_of(rims_, beyond)) {
       return ZeroGap::unknown;
+    }
     const BallDifference balls(difference);
     return pair(balls).touches_outward() ? ZeroGap::zero : ZeroGap::at_most_zero;
   }
