@@ -131,7 +131,7 @@ class BallDifference {
   Ball gap(const BallVector& n) const;
 
   std::size_t segments() const { return segments_.size(); }
-  /// Of a segment; unit.
+  /// The unit axis of a segment.
   const BallVector& axis(std::size_t segment) const { return segments_[segment].axis; }
 
  private:

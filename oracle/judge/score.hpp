@@ -45,7 +45,7 @@ enum class Outcome {
   phantom_points,   ///< a point is beyond the threshold
   not_asked,        ///< the candidate had been stopped in this class after time-outs
                     ///< (reports/campaign.hpp)
-  off_body,         ///< of points, too: one is farther outside a body than its depth
+  off_body,         ///< likewise: a point is farther outside a body than its depth
   no_points,        ///< likewise: a contact of bodies that are not apart has no point
   unseen            ///< no contact where the bodies overlap by less than the bar: within it, but a
                     ///< solver feels nothing
@@ -103,7 +103,7 @@ struct Score {
   std::optional<double> deepest_error;
   /// Largest point_outside of a contact point, or zero.
   std::optional<double> point_error;
-  /// Coverage of the contact patch , if the bodies are in contact and the normal is
+  /// Coverage of the contact patch, if the bodies are in contact and the normal is
   /// within the bar.
   std::optional<double> coverage;
   /// For a simplified model that knows its own signed distance: that distance − true, and the

@@ -29,7 +29,7 @@ constexpr double nearly_aligned = 1e-12;
 
 /// The direction out of a body, towards the other one.
 struct Outward {
-  RationalVector direction;  ///< of any length
+  RationalVector direction;  ///< its length has no meaning
   bool is_exact;
   Vec3 unit;
 };

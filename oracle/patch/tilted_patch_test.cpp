@@ -93,7 +93,7 @@ TEST(TiltedPatch, HoldsAsLongAsEpsilonDoesEvenBeyondTheBody) {
 
 // An independent way to compute the part: its support along t is the minimum over λ >= 0 of h(t + λ
 // n) − λ (h(n) − ε), where h is the body's support (Lagrange duality).
-/// Of a body in its own frame.
+/// Support of a body along a vector of its own frame.
 double body_support(const Shape& shape, const Vec3& n) {
   if (const auto* s = std::get_if<Cylinder>(&shape)) {
     return s->half_length() * std::abs(n.z()) + s->radius() * std::hypot(n.x(), n.y());
