@@ -167,7 +167,7 @@ ts_candidate SpokenCommand::candidate() {
     messages::Poses poses{prepared->handle, *a, *b, hint != nullptr, {}};
     if (hint) std::copy(hint, hint + 3, poses.previous_normal);
     const Answer given = prepared->command.query(poses);
-    *answer = given;
+    *answer = static_cast<const ts_answer&>(given);
     prepared->model_distance =
         given.model_distance.value_or(std::numeric_limits<double>::quiet_NaN());
   };
