@@ -113,19 +113,20 @@ Words words_for(const std::string& value) {
   return words;
 }
 
-/// "-h --help" of "-h,--help".
-std::string spellings(const CLI::Option& option) {
-  std::string text = option.get_name(false, true);
-  std::replace(text.begin(), text.end(), ',', ' ');
-  return text;
+/// "-h", "--help"
+std::vector<std::string> spellings(const CLI::Option& option) {
+  std::vector<std::string> result;
+  for (const std::string& name : option.get_snames()) result.push_back('-' + name);
+  for (const std::string& name : option.get_lnames()) result.push_back("--" + name);
+  return result;
 }
 
 std::string all_spellings(const CLI::App& app) {
-  std::string text;
+  std::vector<std::string> all;
   for (const CLI::Option* option : named_options(app)) {
-    text += (text.empty() ? "" : " ") + spellings(*option);
+    for (const std::string& spelling : spellings(*option)) all.push_back(spelling);
   }
-  return text;
+  return fmt::format("{}", fmt::join(all, " "));
 }
 
 /// For zsh, within single quotes and where brackets and colons mean something.
@@ -156,15 +157,9 @@ std::string zsh_options(const CLI::App& app) {
   for (const CLI::Option* option : named_options(app)) {
     const bool takes_value = option->get_items_expected_max() > 0;
     const std::string value = takes_value ? zsh_value(option->get_type_name()) : "";
-    std::string spelling;
-    for (const char c : spellings(*option) + ' ') {
-      if (c != ' ') {
-        spelling += c;
-        continue;
-      }
+    for (const std::string& spelling : spellings(*option)) {
       text += fmt::format(" \\\n      '{}[{}]{}'", spelling, zsh_quoted(option->get_description()),
                           value);
-      spelling.clear();
     }
   }
   return text;
@@ -200,7 +195,9 @@ std::string bash_completion(const CLI::App& program) {
   for (const CLI::App* app : apps) {
     for (const CLI::Option* option : named_options(*app)) {
       if (option->get_items_expected_max() > 0 && !words_for(option->get_type_name()).empty()) {
-        spelt[option->get_type_name()].insert(spellings(*option));
+        for (const std::string& spelling : spellings(*option)) {
+          spelt[option->get_type_name()].insert(spelling);
+        }
       }
     }
   }

@@ -40,14 +40,6 @@ struct ScoreArguments {
   }
 };
 
-std::ifstream opened(const std::string& file, const char* field) {
-  std::ifstream in(file);
-  if (!in || is_folder(file)) {
-    throw InvalidInput(field, '"' + file + '"', "could not be opened for reading");
-  }
-  return in;
-}
-
 /// What `read` makes of a file, whose name its errors have.
 template <class Read>
 auto named_in_errors(const std::string& file, Read read) {

@@ -10,8 +10,6 @@
 #include "cli/options.hpp"
 #include "oracle/audit/certificate.hpp"
 #include "properties/files/configuration_json.hpp"
-#include "properties/files/disk.hpp"
-#include "reference/invalid_input.hpp"
 
 namespace touchstone {
 namespace {
@@ -30,9 +28,7 @@ int run_solve(const SolveArguments& options) {
   const SolveOptions solving{options.candidates.get(), options.width, options.bar.get(),
                              options.audit, options.candidates.limits()};
   if (options.file == "-") return solve(std::cin, std::cout, solving) ? 0 : 2;
-  std::ifstream in(options.file);
-  if (!in || is_folder(options.file))
-    throw InvalidInput("file", '"' + options.file + '"', "could not be opened for reading");
+  std::ifstream in = opened(options.file, "file");
   return solve(in, std::cout, solving) ? 0 : 2;
 }
 
