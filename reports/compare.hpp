@@ -1,10 +1,12 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "properties/files/named_members.hpp"
 #include "reports/report.hpp"
 #include "reports/terminal.hpp"
 
@@ -18,6 +20,19 @@ struct CompareLimits {
   bool time_counts = false;  ///< is what is slower beyond the limit a regression?
   std::string baseline = "bullet";
 };
+template <class Archive>
+void members(Archive& a, CompareLimits& l) {
+  a.named("error_factor", l.error_factor, rule::positive);
+  a.named("time_factor", l.time_factor, rule::positive);
+  a.named("agreement", l.agreement, rule::share);
+  constexpr Rule kinds{.min = 1, .one_of = [] {
+                         return std::vector<std::string>{"accuracy", "time"};
+                       }};
+  std::vector<std::string> fail_on = kinds.one_of();
+  if (!l.time_counts) fail_on.pop_back();
+  a.named("fail_on", fail_on, kinds);
+  a.named("baseline", l.baseline);
+}
 
 /// Errors below this, of the smaller size, are rounding: they count as this one.
 inline constexpr double negligible_error = 1e-14;
@@ -32,6 +47,23 @@ struct Change {
   bool beyond_limits;
 };
 const char* verdict_name(Change::Verdict verdict);
+inline constexpr std::array all_verdicts = {Change::Verdict::worse, Change::Verdict::better,
+                                            Change::Verdict::slower, Change::Verdict::faster};
+inline const auto& values_of(Change::Verdict) { return all_verdicts; }
+inline const char* name_of(Change::Verdict verdict) { return verdict_name(verdict); }
+
+template <class Archive>
+void members(Archive& a, Change& c) {
+  a.named("pair", c.pair);
+  a.named("class", c.pose_class);
+  a.named("candidate", c.candidate);
+  a.named("measure", c.measure);
+  a.named("before", c.before);
+  a.named("after", c.after);
+  a.named("factor", c.factor, rule::not_negative);
+  a.named("verdict", c.verdict);
+  a.named("beyond_limits", c.beyond_limits);
+}
 
 struct Comparison {
   /// One of the two reports.
@@ -49,6 +81,23 @@ struct Comparison {
 
   bool has_regressed() const;
 };
+template <class Archive>
+void members(Archive& a, Comparison::Side& s) {
+  a.named("version", s.version);
+  a.named("seed", s.seed);
+  a.named("configurations", s.configurations);
+  a.named("partial", s.partial);
+  a.named("machine", s.machine);
+}
+template <class Archive>
+void members(Archive& a, Comparison& c) {
+  a.named("before", c.before);
+  a.named("after", c.after);
+  a.named("limits", c.limits);
+  a.named("remarks", c.remarks);
+  a.named("compared", c.compared);
+  a.named("changes", c.changes);
+}
 
 /// What is better, worse, faster or slower in `after` than in `before` (docs/compare.md). Reports
 /// on the same configurations are compared class by class; on others by pair and group, and only

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "properties/files/given_text.hpp"
+#include "properties/files/json_members.hpp"
 #include "reports/compare.hpp"
 #include "reports/pages/page.hpp"
 #include "reports/replay.hpp"
@@ -65,41 +66,10 @@ std::string section(const char* title, Verdict verdict, const std::vector<Change
   return text;
 }
 
-json to_json(const Comparison::Side& side) {
-  return {{"version", side.version},
-          {"seed", side.seed},
-          {"configurations", side.configurations},
-          {"partial", side.partial},
-          {"machine", touchstone::to_json(side.machine)}};
-}
-
-json to_json(const Change& c) {
-  return {{"pair", c.pair},
-          {"class", c.pose_class},
-          {"candidate", c.candidate},
-          {"measure", c.measure},
-          {"before", c.before},
-          {"after", c.after},
-          {"factor", c.factor ? json(*c.factor) : json(nullptr)},
-          {"verdict", verdict_name(c.verdict)},
-          {"beyond_limits", c.beyond_limits}};
-}
-
 json to_json(const Comparison& c) {
-  json changes = json::array();
-  for (const Change& change : c.changes) changes.push_back(to_json(change));
-  return {{"schema", "touchstone-comparison-1"},
-          {"before", to_json(c.before)},
-          {"after", to_json(c.after)},
-          {"limits",
-           {{"error_factor", c.limits.error_factor},
-            {"time_factor", c.limits.time_factor},
-            {"agreement", c.limits.agreement},
-            {"fail_on", c.limits.time_counts ? json{"accuracy", "time"} : json{"accuracy"}},
-            {"baseline", c.limits.baseline}}},
-          {"remarks", c.remarks},
-          {"compared", c.compared},
-          {"changes", changes}};
+  json result = object_of(c);
+  result["schema"] = "touchstone-comparison-1";
+  return result;
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -9,6 +10,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "candidates/host/candidate_process.hpp"
+#include "properties/files/named_members.hpp"
 
 namespace touchstone {
 
@@ -54,11 +56,39 @@ struct ExperimentResult {
   /// Whether nothing moved in the last half second of the last run.
   bool comes_to_rest() const;
 };
+inline constexpr std::array experiment_outcomes = {
+    ExperimentResult::Outcome::measured, ExperimentResult::Outcome::unsupported,
+    ExperimentResult::Outcome::unsound, ExperimentResult::Outcome::crashed,
+    ExperimentResult::Outcome::timed_out};
+inline const auto& values_of(ExperimentResult::Outcome) { return experiment_outcomes; }
+const char* name_of(ExperimentResult::Outcome outcome);
+
 template <class Archive>
 void members(Archive& a, ExperimentResult& r) {
-  a(r.experiment, r.candidate, r.step, r.outcome, r.value, r.error, r.exact, r.energy_gained,
-    r.points, r.flicker, r.single, r.without, r.failures, r.details, r.steps, r.nanoseconds,
-    r.microseconds_per_step, r.last_motion, r.last_time, r.reason);
+  using Outcome = ExperimentResult::Outcome;
+  a.named("experiment", r.experiment);
+  a.named("candidate", r.candidate);
+  a.named("step", r.step, rule::positive);
+  a.named("outcome", r.outcome);
+  if (r.outcome == Outcome::crashed || r.outcome == Outcome::timed_out) {
+    a.named("reason", r.reason);
+  }
+  if (r.outcome != Outcome::measured && r.outcome != Outcome::unsound) return;
+  a.named("value", r.value, rule::any_or_null);
+  a.named("error", r.error, rule::any_or_null);
+  a.named("exact", r.exact);
+  a.named("energy_gained", r.energy_gained, rule::any_or_null);
+  a.named("points", r.points, rule::not_negative);
+  a.named("flicker", r.flicker, rule::share);
+  a.named("single", r.single, rule::share);
+  a.named("without", r.without, rule::share);
+  a.named("failures", r.failures);
+  a.named("details", r.details, rule::any_or_null);
+  a.named("steps", r.steps);
+  a.named("nanoseconds", r.nanoseconds, rule::not_negative);
+  a.named("microseconds_per_step", r.microseconds_per_step, rule::not_negative);
+  a.named("last_motion", r.last_motion);
+  a.named("last_time", r.last_time, rule::not_negative);
 }
 
 struct ExperimentDescription {
@@ -66,6 +96,16 @@ struct ExperimentDescription {
   std::vector<double> expected, resolution;     ///< for each step
   bool rests = false;                           ///< as in Experiment
 };
+template <class Archive>
+void members(Archive& a, ExperimentDescription& e) {
+  a.named("name", e.name);
+  a.named("statement", e.statement);
+  a.named("quantity", e.quantity);
+  a.named("unit", e.unit);
+  a.named("expected", e.expected);
+  a.named("resolution", e.resolution, rule::not_negative);
+  a.named("rests", e.rests);
+}
 
 /// Results of all experiments with all candidates at all steps.
 struct ExperimentResults {
@@ -73,6 +113,12 @@ struct ExperimentResults {
   std::vector<ExperimentDescription> experiments;
   std::vector<ExperimentResult> results;
 };
+template <class Archive>
+void members(Archive& a, ExperimentResults& r) {
+  a.named("steps", r.steps, rule::positive);
+  a.named("experiments", r.experiments);
+  a.named("results", r.results);
+}
 
 /// Runs every experiment with every candidate at every step. Times aside the results depend on the
 /// options alone. Progress goes to standard error. After an interruption (interruption.hpp) the

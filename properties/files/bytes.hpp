@@ -15,6 +15,7 @@
 
 #include "candidates/host/candidate_process.hpp"
 #include "oracle/truth.hpp"
+#include "properties/files/named_members.hpp"
 #include "reference/configuration.hpp"
 
 namespace touchstone {
@@ -41,6 +42,11 @@ class BytesOut {
   template <class... T>
   void operator()(const T&... values) {
     (put(values), ...);
+  }
+  /// Of a type that lists its members by name (named_members.hpp).
+  template <class T, class... Rules>
+  void named(const char*, const T& value, const Rules&...) {
+    put(value);
   }
   /// Of what comes next.
   template <class Container>
@@ -110,6 +116,10 @@ class BytesIn {
   template <class... T>
   void operator()(T&... values) {
     (get(values), ...);
+  }
+  template <class T, class... Rules>
+  void named(const char*, T& value, const Rules&...) {
+    get(value);
   }
   template <class T>
   T next() {

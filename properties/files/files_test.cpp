@@ -19,6 +19,8 @@
 #include "properties/files/configuration_json.hpp"
 #include "properties/files/disk.hpp"
 #include "properties/files/given_text.hpp"
+#include "properties/files/json_members.hpp"
+#include "properties/files/json_schema.hpp"
 #include "properties/files/strict_json.hpp"
 #include "reference/invalid_input.hpp"
 
@@ -499,6 +501,99 @@ TEST(Bytes, ThatEndTooEarlyAreRefused) {
 TEST(Bytes, HaveNoneBetweenTheMembersOfAType) {
   EXPECT_EQ(to_bytes(std::optional<double>()).size(), 1u);
   EXPECT_EQ(to_bytes(std::optional<double>(1)).size(), 9u);
+}
+
+/// A type with named members of every kind that JSON and its schema tell apart.
+struct Entry {
+  std::string name;
+  double share = 0;
+
+  template <class Archive>
+  friend void members(Archive& a, Entry& e) {
+    a.named("name", e.name);
+    a.named("share", e.share, rule::share);
+  }
+};
+struct Listing {
+  double endless = std::numeric_limits<double>::infinity(), low = 1, high = 2;
+  std::uint64_t count = 3;
+  std::optional<double> absent;
+  std::string note;
+  bool marked = false;
+  int newer = -1;
+  std::vector<Entry> entries = {{"a", 0.5}};
+
+  template <class Archive>
+  friend void members(Archive& a, Listing& l) {
+    a.named("endless", l.endless, rule::any_or_null);
+    a.named("low", l.low, rule::positive);
+    a.named("high", l.high);
+    a.ascending({"low", "high"});
+    a.named("count", l.count);
+    a.named("absent", l.absent);
+    a.named("note", l.note, When::filled);
+    a.named("marked", l.marked, When::filled);
+    a.named("newer", l.newer, When::newer);
+    a.named("entries", l.entries);
+    a.written("twice", 2 * l.low);
+  }
+};
+
+TEST(NamedMembers, AreJsonAndReadBack) {
+  const std::string text =
+      R"({"absent":null,"count":3,"endless":null,"entries":[{"name":"a","share":0.5}],)"
+      R"("high":2.0,"low":1.0,"newer":-1,"twice":2.0})";
+  EXPECT_EQ(json_of(Listing()).dump(), text);
+  Listing read;
+  read.entries.clear();
+  JsonIn(json::parse(text)).read(read);
+  EXPECT_TRUE(std::isnan(read.endless));
+  EXPECT_EQ(json_of(read).dump(), text);
+}
+
+TEST(NamedMembers, ThatAreNotAsTheTypeSaysAreRefusedWithTheirPlace) {
+  const struct {
+    const char *place, *value, *error;
+  } table[] = {{"/endless", "true", "endless is true: must be a number"},
+               {"/low", "0", "low is 0: must be a positive number"},
+               {"/low", "null", "low is null: must be a positive number"},
+               {"/high", "0.5", "high is 0.5: must not be less than its low, 1.0"},
+               {"/count", "-1", "count is -1: must be a whole number"},
+               {"/newer", "1.5", "newer is 1.5: must be a whole number"},
+               {"/marked", "1", "marked is 1: must be true or false"},
+               {"/entries", "{}", "entries is {}: must be an array"},
+               {"/entries/0", "[]", "entries[0] is []: must be an object"},
+               {"/entries/0/name", "7", "entries[0].name is 7: must be a string"},
+               {"/entries/0/share", "2", "entries[0].share is 2: must be a number from 0 to 1"}};
+  for (const auto& [place, value, error] : table) {
+    json listing = json_of(Listing());
+    listing[json::json_pointer(place)] = json::parse(value);
+    Listing read;
+    EXPECT_THAT([&] { JsonIn(listing).read(read); }, ThrowsMessage<InvalidInput>(error));
+  }
+  json listing = json_of(Listing());
+  listing.erase("newer");  // as in a file of an older version
+  Listing read;
+  JsonIn(listing).read(read);
+  listing["entries"][0].erase("name");
+  EXPECT_THAT([&] { JsonIn(listing).read(read); },
+              ThrowsMessage<InvalidInput>("entries[0].name is missing: must be given"));
+}
+
+TEST(NamedMembers, AreAStrictSchema) {
+  JsonSchema schema({"note"}, {"marked"});
+  schema.define<Entry>("entry");
+  EXPECT_EQ(schema.object(Listing()).dump(),
+            R"({"type":"object","properties":{"endless":{"type":["number","null"]},)"
+            R"("low":{"type":"number","exclusiveMinimum":0},"high":{"type":"number"},)"
+            R"("count":{"type":"integer","minimum":0},"absent":{"type":["number","null"]},)"
+            R"("note":{"type":"string"},"newer":{"type":"integer"},)"
+            R"("entries":{"type":"array","items":{"$ref":"#/$defs/entry"}},)"
+            R"("twice":{"type":"number"}},)"
+            R"("required":["endless","low","high","count","absent","note","newer","entries",)"
+            R"("twice"],"additionalProperties":false})");
+  EXPECT_EQ(schema.definitions()["entry"]["properties"]["share"].dump(),
+            R"({"type":"number","minimum":0,"maximum":1})");
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -62,6 +63,18 @@ struct EngineDescription {
   std::string name, version;
   std::string settings, best_settings;  ///< of its solver: as usual, at its best
 };
+namespace rule {
+inline constexpr Rule engine{.one_of = [] {
+  return std::vector<std::string>{"bullet", "bullet-float", "ode", "mujoco"};
+}};
+}  // namespace rule
+template <class Archive>
+void members(Archive& a, EngineDescription& e) {
+  a.named("name", e.name, rule::engine);
+  a.named("version", e.version);
+  a.named("settings", e.settings);
+  a.named("best_settings", e.best_settings);
+}
 
 /// What our contacts do to an experiment in an engine. In the order of the names in cure_name.
 enum class Cure {
@@ -72,6 +85,10 @@ enum class Cure {
   open,    ///< none of these
 };
 const char* cure_name(Cure cure);
+inline constexpr std::array all_cures = {Cure::held, Cure::nearer, Cure::solver, Cure::alike,
+                                         Cure::open};
+inline const auto& values_of(Cure) { return all_cures; }
+inline const char* name_of(Cure cure) { return cure_name(cure); }
 
 /// One experiment in one engine's own world.
 struct EngineResult {
@@ -85,7 +102,12 @@ struct EngineResult {
 };
 template <class Archive>
 void members(Archive& a, EngineResult& r) {
-  a(r.experiment, r.engine, r.cure, r.own, r.cured, r.best);
+  a.named("experiment", r.experiment);
+  a.named("engine", r.engine, rule::engine);
+  a.named("cure", r.cure);
+  a.named("own", r.own);
+  a.named("cured", r.cured);
+  a.named("best", r.best);
 }
 
 struct EngineResults {
@@ -94,6 +116,13 @@ struct EngineResults {
   std::vector<ExperimentDescription> experiments;
   std::vector<EngineResult> results;  ///< by experiment, then engine
 };
+template <class Archive>
+void members(Archive& a, EngineResults& r) {
+  a.named("step", r.step, rule::positive);
+  a.named("engines", r.engines);
+  a.named("experiments", r.experiments);
+  a.named("results", r.results);
+}
 
 /// An engine's version and settings. Throws InvalidInput (field "--engine") where its world is not
 /// there.
