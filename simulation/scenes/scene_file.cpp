@@ -11,6 +11,7 @@
 #include "candidates/readable.hpp"
 #include "properties/files/configuration_json.hpp"
 #include "properties/files/disk.hpp"
+#include "properties/files/json_schema.hpp"
 #include "properties/files/strict_json.hpp"
 #include "reference/invalid_input.hpp"
 #include "reference/support.hpp"
@@ -421,7 +422,7 @@ std::string schema_with_needs(const std::string& schema) {
   }
   result["$defs"] = definitions;
   result["properties"]["needs"]["items"]["oneOf"] = choices;
-  return result.dump(1) + '\n';
+  return schema_text(result);
 }
 
 }  // namespace touchstone
