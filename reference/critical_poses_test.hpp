@@ -1,6 +1,7 @@
 #pragma once
 
 #include <fstream>
+#include <gtest/gtest.h>
 #include <string>
 #include <vector>
 
