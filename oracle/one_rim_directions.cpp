@@ -69,8 +69,8 @@ class RimVertexDirection : public CriticalDirection {
 /// The frame with e and f turned by that many quarter turns about its axis: the first takes e to f
 /// and f to −e.
 Frame turned(const Frame& frame, unsigned quarters) {
-  const auto [f, e] = turned(frame.f, frame.e, quarters);
-  return {frame.axis, e, f};
+  auto [f, e] = turned(frame.f, frame.e, quarters);
+  return {frame.axis, std::move(e), std::move(f)};
 }
 
 /// The gap along directions perpendicular to one line, at one vertex of the other segments.

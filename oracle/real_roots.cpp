@@ -74,7 +74,14 @@ bool RootBracket::is_narrow(long bits) const {
   return arf_cmp_2exp_si((hi_ - lo_).get(), -bits) <= 0;
 }
 
-double RootBracket::width_bits() const { return -mag_get_d_log2_approx(arb_radref(ball().get())); }
+double RootBracket::width_bits() const {
+  mag_t width;
+  mag_init(width);
+  arf_get_mag(width, (hi_ - lo_).get());
+  const double bits = 1 - mag_get_d_log2_approx(width);
+  mag_clear(width);
+  return bits;
+}
 
 void RootBracket::narrow_here(const BallFunction& function, long wanted_bits) {
   while (!is_narrow(wanted_bits) && (newton(function, wanted_bits) || trisect(function))) {
@@ -86,12 +93,13 @@ void RootBracket::narrow_here(const BallFunction& function, long wanted_bits) {
 Ball RootBracket::change(const BallFunction& function) const {
   constexpr long guard_bits = 16, min_bits = 64;
   const long enough = std::max(min_bits, static_cast<long>(width_bits()) + guard_bits);
+  const Ball t = ball();
   if (enough < WorkingPrecision::bits()) {
     const WorkingPrecision precision(enough);
-    Ball result = function.change(ball());
+    Ball result = function.change(t);
     if (!result.contains_zero()) return result;
   }
-  return function.change(ball());
+  return function.change(t);
 }
 
 /// Interval Newton, once more with the same change if that is enough. False if it does not halve
@@ -104,10 +112,9 @@ bool RootBracket::newton(const BallFunction& function, long wanted_bits) {
     const double before = width_bits();
     if (!newton_step(function, wide_change)) return halved;
     halved = true;
-    const double gain = width_bits() - before;
-    if (is_narrow(wanted_bits) || width_bits() + gain < static_cast<double>(wanted_bits + 1)) {
-      return true;
-    }
+    if (is_narrow(wanted_bits)) return true;
+    const double after = width_bits(), gain = after - before;
+    if (after + gain < static_cast<double>(wanted_bits + 1)) return true;
   }
 }
 

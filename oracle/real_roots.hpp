@@ -92,8 +92,8 @@ class RootBracket {
 
  private:
   bool is_narrow(long bits) const;
-  double width_bits()
-      const;  ///< roughly how narrow the interval is, which is_narrow decides exactly
+  /// About −log2 of half the width: predicts when is_narrow, which decides exactly, will hold.
+  double width_bits() const;
   void narrow_here(const BallFunction& function, long wanted_bits);
   Ball change(const BallFunction& function) const;
   bool newton(const BallFunction& function, long wanted_bits);
