@@ -259,8 +259,8 @@ bool stream_from_processes(std::uint64_t count, unsigned workers,
     throw;
   }
   if (taken != count) {  // a worker died between taking a task and noting that it has
-    throw std::runtime_error("a worker died: only " + std::to_string(taken) + " of " +
-                             std::to_string(count) + " tasks were done");
+    throw TaskFailure("a worker died: only " + std::to_string(taken) + " of " +
+                      std::to_string(count) + " tasks were done");
   }
   return true;
 }
