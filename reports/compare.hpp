@@ -20,8 +20,7 @@ struct CompareLimits {
   bool time_counts = false;  ///< is what is slower beyond the limit a regression?
   std::string baseline = "bullet";
 };
-template <class Archive>
-void members(Archive& a, CompareLimits& l) {
+void members(auto& a, CompareLimits& l) {
   a.named("error_factor", l.error_factor, rule::positive);
   a.named("time_factor", l.time_factor, rule::positive);
   a.named("agreement", l.agreement, rule::share);
@@ -52,8 +51,7 @@ inline constexpr std::array all_verdicts = {Change::Verdict::worse, Change::Verd
 inline const auto& values_of(Change::Verdict) { return all_verdicts; }
 inline const char* name_of(Change::Verdict verdict) { return verdict_name(verdict); }
 
-template <class Archive>
-void members(Archive& a, Change& c) {
+void members(auto& a, Change& c) {
   a.named("pair", c.pair);
   a.named("class", c.pose_class);
   a.named("candidate", c.candidate);
@@ -81,16 +79,14 @@ struct Comparison {
 
   bool has_regressed() const;
 };
-template <class Archive>
-void members(Archive& a, Comparison::Side& s) {
+void members(auto& a, Comparison::Side& s) {
   a.named("version", s.version);
   a.named("seed", s.seed);
   a.named("configurations", s.configurations);
   a.named("partial", s.partial);
   a.named("machine", s.machine);
 }
-template <class Archive>
-void members(Archive& a, Comparison& c) {
+void members(auto& a, Comparison& c) {
   a.named("before", c.before);
   a.named("after", c.after);
   a.named("limits", c.limits);

@@ -18,8 +18,8 @@ using CountByClass = std::map<std::pair<std::string, std::string>, std::uint64_t
 Key key_of(const ResultRow& row) { return {row.pair, row.pose_class, row.candidate}; }
 
 /// Of the rows of one list; `counts` takes how many configurations each of its classes has.
-std::optional<Inconsistency> between_rows(const Report& report, const std::vector<ResultRow>& rows,
-                                          const std::string& list, CountByClass& counts) {
+std::optional<InvalidInput> between_rows(const Report& report, const std::vector<ResultRow>& rows,
+                                         const std::string& list, CountByClass& counts) {
   std::set<std::string> candidates;
   for (const CandidateDescription& c : report.candidates) candidates.insert(c.name);
   std::set<Key> seen;
@@ -27,7 +27,7 @@ std::optional<Inconsistency> between_rows(const Report& report, const std::vecto
     const std::string place = fmt::format("{}[{}]", list, &row - rows.data()),
                       of_class = row.pair + '/' + row.pose_class;
     const auto about_candidate = [&](const std::string& remedy) {
-      return Inconsistency{place + ".candidate", '"' + row.candidate + '"', remedy};
+      return InvalidInput{place + ".candidate", '"' + row.candidate + '"', remedy};
     };
     if (!candidates.contains(row.candidate)) {
       return about_candidate("must be one of the candidates of the report");
@@ -38,7 +38,7 @@ std::optional<Inconsistency> between_rows(const Report& report, const std::vecto
     const std::uint64_t count = row.statistics.count;
     const auto [of_others, is_first] = counts.try_emplace({row.pair, row.pose_class}, count);
     if (of_others->second != count) {
-      return Inconsistency{
+      return InvalidInput{
           place + ".count", std::to_string(count),
           fmt::format("must be {}, as in the first row of {}", of_others->second, of_class)};
     }
@@ -63,12 +63,12 @@ std::map<Key, OutcomeCounts> sums_of_groups(const Report& report) {
 
 }  // namespace
 
-std::optional<Inconsistency> inconsistency(const Report& report) {
+std::optional<InvalidInput> inconsistency(const Report& report) {
   std::set<std::string> names;
   for (const CandidateDescription& c : report.candidates) {
     if (names.insert(c.name).second) continue;
-    return Inconsistency{fmt::format("candidates[{}].name", &c - report.candidates.data()),
-                         '"' + c.name + '"', "must stand there once"};
+    return InvalidInput{fmt::format("candidates[{}].name", &c - report.candidates.data()),
+                        '"' + c.name + '"', "must stand there once"};
   }
   std::set<std::pair<std::string, std::string>> classes;
   for (const PoseClassDescription& c : report.classes) {
@@ -82,8 +82,8 @@ std::optional<Inconsistency> inconsistency(const Report& report) {
   std::uint64_t configurations = 0;
   for (const auto& [name, count] : of_classes) configurations += count;
   if (!report.is_old && configurations != report.configurations) {
-    return Inconsistency{"configurations", std::to_string(report.configurations),
-                         fmt::format("must be {}, the sum of all classes", configurations)};
+    return InvalidInput{"configurations", std::to_string(report.configurations),
+                        fmt::format("must be {}, the sum of all classes", configurations)};
   }
   if (report.classes.empty()) return std::nullopt;  // which group a class belongs to is not known
   auto sums = sums_of_groups(report);
@@ -91,10 +91,10 @@ std::optional<Inconsistency> inconsistency(const Report& report) {
     const OutcomeCounts &sum = sums[key_of(row)], &said = row.statistics.outcomes;
     const auto [of_sum, other] = std::mismatch(sum.begin(), sum.end(), said.begin());
     if (of_sum == sum.end()) continue;
-    return Inconsistency{fmt::format("summary[{}].outcomes.{}", &row - report.summary.data(),
-                                     outcome_name(all_outcomes[of_sum - sum.begin()])),
-                         std::to_string(*other),
-                         fmt::format("must be {}, the sum of its classes", *of_sum)};
+    return InvalidInput{fmt::format("summary[{}].outcomes.{}", &row - report.summary.data(),
+                                    outcome_name(all_outcomes[of_sum - sum.begin()])),
+                        std::to_string(*other),
+                        fmt::format("must be {}, the sum of its classes", *of_sum)};
   }
   return std::nullopt;
 }

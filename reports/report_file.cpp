@@ -32,9 +32,7 @@ Report report(const json& file) {
     const auto today = find_pose_class(row.pair, row.pose_class);
     if (result.is_old && today) row.pose_class = today->name();
   }
-  if (const auto found = inconsistency(result)) {
-    throw InvalidInput(found->place, found->value, found->remedy);
-  }
+  if (const auto found = inconsistency(result)) throw *found;
   return result;
 }
 

@@ -49,16 +49,14 @@ inline std::optional<std::string> text_or_null(const std::string& text) {
   return text.empty() ? std::nullopt : std::optional(text);
 }
 
-template <class Archive>
-void members(Archive& a, Machine& m) {
+void members(auto& a, Machine& m) {
   a.named("cpu", m.cpu);
   a.named("cores", m.cores, rule::from_one, When::newer);
   a.named("compiler", m.compiler);
   a.named("os", m.os, When::newer);
 }
 
-template <class Archive>
-void members(Archive& a, CandidateDescription& c) {
+void members(auto& a, CandidateDescription& c) {
   a.named("name", c.name);
   a.named("family", c.family, When::newer);
   a.named("version", c.version);
@@ -75,8 +73,7 @@ void members(Archive& a, CandidateDescription& c) {
   a.named("given", c.given, When::filled);
 }
 
-template <class Archive>
-void members(Archive& a, PoseClassDescription& c) {
+void members(auto& a, PoseClassDescription& c) {
   a.named("pair", c.pair, rule::pair);
   a.named("class", c.pose_class);
   a.named("description", c.description, When::newer);
@@ -86,13 +83,9 @@ void members(Archive& a, PoseClassDescription& c) {
   a.named("digest", c.digest, {.pattern = "^[0-9a-f]{16}$"}, When::filled);
 }
 
-template <class Archive>
-void members(Archive& a, Bounds& b) {
-  a.elements(b.lower, b.upper);
-}
+void members(auto& a, Bounds& b) { a.elements(b.lower, b.upper); }
 
-template <class Archive>
-void members(Archive& a, Quantiles& q) {
+void members(auto& a, Quantiles& q) {
   a.named("median", q.median, rule::not_negative);
   a.named("p99", q.p99, rule::not_negative);
   a.named("max", q.max, rule::not_negative);
@@ -101,8 +94,7 @@ void members(Archive& a, Quantiles& q) {
   a.written("p99_bounds", q.p99_bounds, When::filled);
 }
 
-template <class Archive>
-void members(Archive& a, LogHistogram& h) {
+void members(auto& a, LogHistogram& h) {
   a.named("zero", h.zero);
   a.named("first", h.first);
   a.named("counts", h.counts);
@@ -113,15 +105,13 @@ struct ErrorStatistics {
   Quantiles quantiles;
   std::optional<LogHistogram> histogram;
 };
-template <class Archive>
-void members(Archive& a, ErrorStatistics& e) {
+void members(auto& a, ErrorStatistics& e) {
   members(a, e.quantiles);
   constexpr Rule half_decades{.meaning = "by half decades"};
   a.written("histogram", e.histogram, half_decades, When::filled);
 }
 
-template <class Archive>
-void members(Archive& a, SignedMedian& m) {
+void members(auto& a, SignedMedian& m) {
   a.named("median", m.value);
   a.written("median_bounds", m.bounds, When::filled);
 }
@@ -167,8 +157,7 @@ void name_outcomes(Archive& a, Statistics& s) {
   a.require(all_fit && left == 0, "outcomes", "must be numbers whose sum is the count");
 }
 
-template <class Archive>
-void members(Archive& a, Statistics& s) {
+void members(auto& a, Statistics& s) {
   a.named("count", s.count, rule::row_count);
   name_outcomes(a, s);
   name_errors(a, "depth_error", s.depth_error, s.depth_histogram);
@@ -201,8 +190,7 @@ void name_spread(Archive& a, std::optional<Spread>& spread, const char* median, 
   if constexpr (Archive::reads) spread = {*of_median, *of_low, *of_high};
 }
 
-template <class Archive>
-void members(Archive& a, QueryTime& t) {
+void members(auto& a, QueryTime& t) {
   Spread& time = t.nanoseconds;
   a.named("median", time.median, rule::measured);
   a.named("low", time.low, rule::measured);
@@ -222,8 +210,7 @@ void members(Archive& a, QueryTime& t) {
 }
 
 /// An entry of `results`.
-template <class Archive>
-void members(Archive& a, ResultRow& row) {
+void members(auto& a, ResultRow& row) {
   a.named("pair", row.pair, rule::pair);
   a.named("class", row.pose_class);
   a.named("candidate", row.candidate);
@@ -236,8 +223,7 @@ void members(Archive& a, ResultRow& row) {
 struct SummaryRow {
   ResultRow row;
 };
-template <class Archive>
-void members(Archive& a, SummaryRow& summary) {
+void members(auto& a, SummaryRow& summary) {
   ResultRow& row = summary.row;
   a.named("pair", row.pair, rule::pair_or_all);
   a.named("class", row.pose_class, rule::group);
@@ -248,16 +234,14 @@ void members(Archive& a, SummaryRow& summary) {
   a.written("tied_with", row.tied_with);
 }
 
-template <class Archive>
-void members(Archive& a, TrendBin& b) {
+void members(auto& a, TrendBin& b) {
   a.named("decade", b.decade);
   a.named("count", b.count);
   a.named("missed", b.missed);
   a.named("median", b.median, rule::not_negative);
   a.named("max", b.max, rule::not_negative);
 }
-template <class Archive>
-void members(Archive& a, Trend& t) {
+void members(auto& a, Trend& t) {
   a.named("pair", t.pair, rule::pair);
   a.named("group", t.group, rule::group);
   a.named("candidate", t.candidate);
@@ -268,13 +252,11 @@ void members(Archive& a, Trend& t) {
   a.named("bins", t.bins);
 }
 
-template <class Archive>
-void members(Archive& a, FailureRate& r) {
+void members(auto& a, FailureRate& r) {
   a.named("count", r.count);
   a.named("failed", r.failed);
 }
-template <class Archive>
-void members(Archive& a, Factor& f) {
+void members(auto& a, Factor& f) {
   a.named("pair", f.pair, rule::pair);
   a.named("candidate", f.candidate);
   a.named("group", f.group, rule::group);
@@ -284,8 +266,7 @@ void members(Archive& a, Factor& f) {
   a.named("without", f.without, rule::share);
   a.named("worst", text_or_null(f.worst));
 }
-template <class Archive>
-void members(Archive& a, Contrast& c) {
+void members(auto& a, Contrast& c) {
   a.named("pair", c.pair, rule::pair);
   a.named("candidate", c.candidate);
   a.named("arrangement", c.arrangement);
@@ -308,8 +289,7 @@ struct AnswersOf {
 };
 nlohmann::json to_json(const AnswersOf& answers);
 
-template <class Archive>
-void members(Archive& a, Examination& e) {
+void members(auto& a, Examination& e) {
   a.named("id", e.id);
   a.named("configuration", e.configuration);
   a.named("replay", e.replay);
@@ -320,8 +300,7 @@ void members(Archive& a, Examination& e) {
   a.named("answers", answers, When::filled);
 }
 
-template <class Archive>
-void members(Archive& a, WorstCase& w) {
+void members(auto& a, WorstCase& w) {
   members(a, w.examination);
   a.named("pair", w.pair, rule::pair);
   a.named("group", w.group, rule::group);
@@ -333,27 +312,23 @@ void members(Archive& a, WorstCase& w) {
   a.named("severity", w.score.severity, rule::not_negative);
 }
 
-template <class Archive>
-void members(Archive& a, DrakeCase& c) {
+void members(auto& a, DrakeCase& c) {
   a.named("description", c.description);
   a.named("configuration", c.configuration);
 }
 struct PublishedByDrake {
   std::optional<double> penetration, signed_distance;
 };
-template <class Archive>
-void members(Archive& a, PublishedByDrake& p) {
+void members(auto& a, PublishedByDrake& p) {
   a.named("penetration", p.penetration, rule::not_negative);
   a.named("signed_distance", p.signed_distance, rule::not_negative);
 }
-template <class Archive>
-void members(Archive& a, DrakeProtocol::Published& p) {
+void members(auto& a, DrakeProtocol::Published& p) {
   a.named("pair", p.pair, rule::pair);
   a.named("published", PublishedByDrake{p.penetration, p.signed_distance});
   a.named("configurations", p.configurations);
 }
-template <class Archive>
-void members(Archive& a, DrakeProtocol::Result& r) {
+void members(auto& a, DrakeProtocol::Result& r) {
   a.named("pair", r.pair, rule::pair);
   a.named("candidate", r.candidate);
   a.named("count", r.count);
@@ -361,23 +336,20 @@ void members(Archive& a, DrakeProtocol::Result& r) {
   a.named("max_error", r.max_error, rule::not_negative);
   a.named("worst", r.worst);
 }
-template <class Archive>
-void members(Archive& a, DrakeProtocol& p) {
+void members(auto& a, DrakeProtocol& p) {
   a.named("depth", p.depth, rule::positive);
   a.named("pairs", p.pairs);
   a.named("results", p.results);
 }
 
-template <class Archive>
-void members(Archive& a, RecordedShare& s) {
+void members(auto& a, RecordedShare& s) {
   a.named("pair", s.pair, rule::pair);
   a.named("arrangement", s.arrangement.name);
   a.named("tilt", s.arrangement.tilt, rule::not_negative);
   a.named("share", s.share, rule::share);
 }
 
-template <class Archive>
-void members(Archive& a, Report::Extent& e) {
+void members(auto& a, Report::Extent& e) {
   a.named("classes", e.classes);
   a.named("configurations", e.configurations);
 }
@@ -385,8 +357,7 @@ struct CompletedExtent {
   Report::Extent extent;
   std::uint64_t timed_classes;
 };
-template <class Archive>
-void members(Archive& a, CompletedExtent& c) {
+void members(auto& a, CompletedExtent& c) {
   members(a, c.extent);
   a.named("timed_classes", c.timed_classes);
 }
