@@ -73,8 +73,8 @@ std::optional<InvalidInput> inconsistency(const Report& report) {
   std::set<std::pair<std::string, std::string>> classes;
   for (const PoseClassDescription& c : report.classes) {
     if (classes.insert({c.pair, c.pose_class}).second) continue;
-    return Inconsistency{fmt::format("classes[{}].class", &c - report.classes.data()),
-                         '"' + c.pose_class + '"', "must stand there once for " + c.pair};
+    return InvalidInput{fmt::format("classes[{}].class", &c - report.classes.data()),
+                        '"' + c.pose_class + '"', "must stand there once for " + c.pair};
   }
   CountByClass of_classes, of_groups;
   if (auto found = between_rows(report, report.results, "results", of_classes)) return found;

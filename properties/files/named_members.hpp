@@ -23,7 +23,9 @@ namespace touchstone {
 /// An archive that takes values without names: bytes. What goes between processes may be more than
 /// what files say, and then has a list of its own.
 template <class Archive>
-concept Unnamed = requires(Archive& a, int& x) { a(x); };
+concept Unnamed = requires(Archive& a, int& x) {
+  a(x);
+};
 
 /// What the value of a member must be beyond what its type says.
 struct Rule {

@@ -109,8 +109,8 @@ struct Sequences {
   std::vector<Course> motions;
 };
 
-// What a worker has measured, whole, on its way to the one that asked it; stability_members.hpp says
-// what of it is written.
+// What a worker has measured, whole, on its way to the one that asked it; stability_members.hpp
+// says what of it is written.
 template <Unnamed Archive>
 void members(Archive& a, Amplification::Row& x) {
   a(x.pair, x.pose_class, x.candidate, x.amplification, x.hull_excess, x.regret, x.jump,
