@@ -177,7 +177,7 @@ std::string corpus_text(const std::vector<ReplayedFailure>& corpus, const Termin
     const std::string name =
         corpus_name(r.expected) + (is_known ? "" : fmt::format(" ({})", r.now));
     text += fmt::format("  {:<12} {}\n", result_name(r.result),
-                        wrapped(name, terminal.columns - 15, '\n' + std::string(15, ' ')));
+                        wrapped(name, terminal.columns - 15, "\n" + std::string(15, ' ')));
   }
   return text;
 }
