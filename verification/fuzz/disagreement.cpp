@@ -15,7 +15,7 @@ constexpr double promised = 1e-13, promised_above = 1e-12, promised_below = 1e-6
 /// The larger size, or how far the bodies or the plane are apart.
 double scale_of(const Configuration& c) {
   const auto* plane = std::get_if<Plane>(&c.b);
-  return std::max({larger_size(c), (c.pose_a.position() - c.pose_b.position()).norm(),
+  return std::max({larger_size(c), (c.pose_a.position() - c.pose_b.position()).stableNorm(),
                    plane ? std::abs(plane->unit_displacement()) : 0});
 }
 
