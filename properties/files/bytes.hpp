@@ -37,7 +37,7 @@ concept IsRaw = std::is_trivially_copyable_v<T> && !requires(Archive & a, T& x) 
 
 class BytesOut {
  public:
-  static constexpr bool reads = false;
+  static constexpr bool reads = false, is_bytes = true;
 
   template <class... T>
   void operator()(const T&... values) {
@@ -109,7 +109,7 @@ inline Configuration blank<Configuration>() {
 /// Reads what a BytesOut was given, in the same order.
 class BytesIn {
  public:
-  static constexpr bool reads = true;
+  static constexpr bool reads = true, is_bytes = true;
 
   explicit BytesIn(std::string_view bytes) : rest_(bytes) {}
 

@@ -20,12 +20,10 @@ namespace touchstone {
 // Archives are JSON both ways (json_members.hpp), its schema (json_schema.hpp) and bytes
 // (bytes.hpp), which have no names. `Archive::reads` tells which way the values go.
 
-/// An archive that takes values without names: bytes. What goes between processes may be more than
-/// what files say, and then has a list of its own.
+/// An archive of bytes. What goes between processes may be more than what files say, and then has a
+/// list of its own.
 template <class Archive>
-concept Unnamed = requires(Archive& a, int& x) {
-  a(x);
-};
+concept OfBytes = Archive::is_bytes;
 
 /// What the value of a member must be beyond what its type says.
 struct Rule {
