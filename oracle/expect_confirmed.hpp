@@ -26,7 +26,7 @@ inline audit::Enclosure expect_confirmed(const Configuration& c, const oracle::T
     if (is_plane) break;
     EXPECT_NEAR(gap(c, normal.n), sigma, rounding) << "normal " << normal.n.transpose();
   }
-  const audit::Enclosure e = audit::enclose(c, budget);
+  audit::Enclosure e = audit::enclose(c, budget);
   EXPECT_LE(mpq_class(e.lo), t.signed_distance.hi) << "along " << e.normal.transpose();
   EXPECT_GE(mpq_class(e.hi), t.signed_distance.lo);
   EXPECT_GE(mpq_class(e.pair_distance), t.signed_distance.lo);

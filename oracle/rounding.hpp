@@ -50,6 +50,8 @@ struct Resized {
     return std::visit([this](const auto& s) -> Shape { return (*this)(s); }, shape);
   }
 };
+template <class Size>
+Resized(Size) -> Resized<Size>;  // clang 14 finds none by itself
 
 /// Moves bodies that are farther apart than 2^bits times their sizes closer together, in the same
 /// direction: coordinates of a thousand bits would give roots that lie 2^-1000 apart.

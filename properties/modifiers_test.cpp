@@ -162,8 +162,8 @@ TEST(Modifiers, ProportionsAreWhatTheirNamesSay) {
        {std::pair("general", 1e-9), std::pair("side-on-face", 0.2)}) {
     int bars = 0, plates = 0;
     for (std::uint64_t i = 0; i < samples; ++i) {
-      const auto made = [&](const char* proportions) {
-        return make_configuration({Pair::box, std::string(arrangement) + proportions, 1, i});
+      const auto made = [i, name = std::string(arrangement)](const char* proportions) {
+        return make_configuration({Pair::box, name + proportions, 1, i});
       };
       const Cylinder needle = made("+needle").a, coin = made("+coin").a;
       EXPECT_NEAR(needle.half_length() / needle.radius(), 1000, rounding_of_ratio);
