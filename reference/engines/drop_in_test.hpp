@@ -36,7 +36,7 @@ inline void append(std::vector<double>& numbers, const std::vector<EnginePoint>&
 /// Returns them.
 template <class Ask>
 auto expect_threads_answer_alike(Ask ask) {
-  const auto alone = ask(0);
+  auto alone = ask(0);
   std::vector<decltype(ask(0))> at_once(2);
   std::vector<std::thread> threads;
   for (int i : {1, 2}) threads.emplace_back([&, i] { at_once[i - 1] = ask(i); });
