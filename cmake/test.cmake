@@ -8,9 +8,7 @@ function(touchstone_test)
   add_executable(${TEST_NAME} ${TEST_SOURCES})
   target_link_libraries(${TEST_NAME} PRIVATE ${TEST_LIBRARIES} GTest::gmock GTest::gtest_main
                                              touchstone_warnings)
-  target_precompile_headers(${TEST_NAME} REUSE_FROM touchstone_test_headers)
-  # Tests ask more than they compute. Not -O0: what a library does not inline would be the test's then.
-  target_compile_options(${TEST_NAME} PRIVATE $<$<CONFIG:Release>:-O1>)
+  use_precompiled(${TEST_NAME} touchstone_test_headers)
   # The same properties each time; a run by hand without RC_PARAMS draws others.
   gtest_discover_tests(${TEST_NAME} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 600
                        PROPERTIES ENVIRONMENT RC_PARAMS=seed=1)
