@@ -44,6 +44,12 @@ constexpr struct {
                        {"jolt-native-margin-0", "jolt-native", true},
                        {"box3d", "box3d", true}};
 
+/// Families of the standard plug-ins that are asked once they are named, or with --all-candidates:
+/// other settings, calls and models of what is asked anyway, which take a third of a report's time.
+constexpr std::string_view variants[] = {
+    "bullet-persistent", "bullet-hull", "bullet-float-margin-0", "ode-mesh",    "fcl-indep",
+    "fcl-distance",      "libccd-gjk",  "box-spheres",           "box-capsules"};
+
 /// The folder of this code's file: of the program or, in Python, of the module.
 std::filesystem::path own_folder() {
   static const char here = 0;
@@ -333,6 +339,14 @@ std::vector<std::string> named_candidates() { return built_to_name(false); }
 std::vector<std::string> peer_engines() { return built_to_name(true); }
 
 std::vector<const Candidate*> all_candidates() { return Registry::get().listed(); }
+
+std::vector<const Candidate*> default_candidates() {
+  std::vector<const Candidate*> result = all_candidates();
+  std::erase_if(result, [](const Candidate* c) {
+    return !c->added && std::ranges::find(variants, c->family) != std::end(variants);
+  });
+  return result;
+}
 
 const Candidate& find_candidate(std::string_view name) { return Registry::get().find(name); }
 

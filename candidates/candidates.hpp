@@ -71,6 +71,10 @@ struct Candidate {
 /// plug-ins, with the usual member of each family, then the added ones.
 std::vector<const Candidate*> all_candidates();
 
+/// Those of them that are asked where none are named: the added ones, and each engine and model as
+/// it is mostly used, without the variants.
+std::vector<const Candidate*> default_candidates();
+
 /// Those built here that are candidates once they are named, and in no list before or after: our
 /// routines in single precision, "reference-float", and engines that answer with Touchstone's
 /// contacts of cylinders (reference/engines), "ode+touchstone".

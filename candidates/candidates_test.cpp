@@ -1,5 +1,6 @@
 #include "candidates/candidates.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <dlfcn.h>
 #include <gmock/gmock.h>
@@ -23,6 +24,23 @@ std::vector<std::string> names(const std::vector<std::string>& asked) {
   std::vector<std::string> result;
   for (const Candidate* c : find_candidates(asked)) result.push_back(c->name);
   return result;
+}
+
+// A report asks each engine and model once or twice, not all of their settings.
+TEST(DefaultCandidates, AreThoseWithoutVariants) {
+  std::vector<std::string> asked, others;
+  for (const Candidate* c : default_candidates()) {
+    if (!c->added) asked.push_back(c->name);
+  }
+  EXPECT_THAT(asked, ElementsAre("reference", "bullet", "bullet-margin-0", "bullet-float", "ode",
+                                 "fcl", "libccd-mpr", "mujoco", "capsule", "capsule-circumscribed",
+                                 "spheres:8", "prism:16"));
+  for (const Candidate* c : all_candidates()) {
+    if (!c->added && std::ranges::find(asked, c->name) == asked.end()) others.push_back(c->name);
+  }
+  EXPECT_THAT(others, ElementsAre("bullet-persistent", "bullet-hull:16", "bullet-float-margin-0",
+                                  "ode-mesh:16", "fcl-indep", "fcl-distance", "libccd-gjk",
+                                  "box-spheres:8", "box-capsules:4"));
 }
 
 TEST(FindCandidate, NamesThoseThereAre) {

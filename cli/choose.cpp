@@ -27,7 +27,7 @@ constexpr int not_served = 1;
 
 struct ChooseArguments {
   explicit ChooseArguments(Command& command)
-      : candidates(command), workers(command), robot(command) {}
+      : candidates(command, false), workers(command), robot(command) {}
   CandidateOption candidates;
   WorkersOption workers;
   RobotOption robot;

@@ -53,8 +53,13 @@ void add_candidates(Program& program) {
       "A family with a parameter is named with its number, as prism:16; what is skipped\n"
       "or unavailable says why.");
   command.runs([] {
-    for (const Candidate* c : all_candidates()) print_candidate(*c);
+    const std::vector<const Candidate*> usual = default_candidates();
+    for (const Candidate* c : usual) print_candidate(*c);
     for (const Skipped& s : skipped_plugins()) print_heading(s.name + ": skipped; " + s.reason);
+    print_heading("Variants of these, when one is named or with --all-candidates:");
+    for (const Candidate* c : all_candidates()) {
+      if (std::ranges::find(usual, c) == usual.end()) print_candidate(*c);
+    }
     print_heading(
         "In single precision, or with Touchstone's contacts installed, when one is named:");
     for (const std::string& name : named_candidates()) print_below(name);

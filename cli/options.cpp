@@ -14,12 +14,17 @@
 
 namespace touchstone {
 
-CandidateOption::CandidateOption(Command& command)
+CandidateOption::CandidateOption(Command& command, bool has_default)
     : option_(command
                   .list("--candidates", names_,
-                        "Only these, separated by commas (default: all); families by several "
-                        "numbers, as in prism:8,16,32 or spheres:1..64")
+                        fmt::format("Only these, separated by commas (default: {}); families by "
+                                    "several numbers, as in prism:8,16,32 or spheres:1..64",
+                                    has_default ? "all but variants" : "all"))
                   .value("CANDIDATE")) {
+  if (has_default) {
+    command.flag("--all-candidates", asks_all_, "All, with the variants of engines and models")
+        .excludes(option_);
+  }
   constexpr NumberRange seconds{1e-3, 1e6}, mebibytes{1, 1e9};
   command.number("--time-limit", limits_.seconds, seconds,
                  "Processor time that a candidate may take for one configuration, seconds");
@@ -28,7 +33,9 @@ CandidateOption::CandidateOption(Command& command)
 }
 
 std::vector<const Candidate*> CandidateOption::get() const {
-  auto candidates = names_.empty() ? all_candidates() : find_candidates(names_);
+  const auto candidates = asks_all_        ? all_candidates()
+                          : names_.empty() ? default_candidates()
+                                           : find_candidates(names_);
   if (candidates.empty()) {
     throw InvalidInput("--candidates", "empty",
                        "no plug-ins are where the program looks for them; touchstone candidates "

@@ -18,9 +18,13 @@ namespace touchstone {
 // after parsing.
 
 struct CandidateOption {
-  explicit CandidateOption(Command& command);
-  bool is_given() const { return option_.is_given(); }
-  /// In the order given; all of them by default. Throws InvalidInput on an unknown name.
+  /// `has_default`: the command asks the default candidates where none are named, and has
+  /// --all-candidates.
+  explicit CandidateOption(Command& command, bool has_default = true);
+  bool is_given() const { return asks_all_ || are_named(); }
+  /// One by one.
+  bool are_named() const { return option_.is_given(); }
+  /// In the order given; the default ones where none are. Throws InvalidInput on an unknown name.
   std::vector<const Candidate*> get() const;
   const Limits& limits() const { return limits_; }
   const Option& option() const { return option_; }
@@ -31,6 +35,7 @@ struct CandidateOption {
 
  private:
   std::vector<std::string> names_;
+  bool asks_all_ = false;
   Limits limits_;
   Option option_;
 };

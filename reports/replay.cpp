@@ -191,15 +191,19 @@ std::string option_text(const Added& added) {
   return ' ' + added.option + ' ' + shell_quoted(added.value);
 }
 
-/// " --candidates a,b" if one of them is asked only when it is named; otherwise all are asked.
+/// " --candidates a,b" if one of them is asked only when it is named; otherwise the default ones
+/// are asked. " --all-candidates" for all that there are: a page has hundreds of these commands.
 std::string choice_of(const std::vector<std::string>& candidates) {
-  const std::vector<const Candidate*> usual = all_candidates();
+  const std::vector<const Candidate*> usual = default_candidates();
   const bool is_special =
       std::any_of(candidates.begin(), candidates.end(), [&](const std::string& name) {
         const Candidate* const known = known_candidate(name);
         return known && std::find(usual.begin(), usual.end(), known) == usual.end();
       });
   if (!is_special) return "";
+  if (std::ranges::equal(candidates, all_candidates(), {}, {}, &Candidate::name)) {
+    return " --all-candidates";
+  }
   std::string names;
   for (const std::string& name : candidates)
     names += (names.empty() ? "" : ",") + shell_quoted(name);

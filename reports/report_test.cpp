@@ -237,6 +237,12 @@ TEST(Report, PrintsCommandsWithTheOptionsOfTheirOwnCandidatesAlone) {
   // What is asked only when it is named has to be named.
   EXPECT_EQ(replay_command("a/b/1/2", {"reference", "prism:5"}),
             "./touchstone replay a/b/1/2 --candidates reference,'prism:5'");
+  EXPECT_EQ(replay_command("a/b/1/2", {"fcl-indep"}),
+            "./touchstone replay a/b/1/2 --candidates fcl-indep");
+  std::vector<std::string> all;
+  for (const Candidate* c : all_candidates()) all.push_back(c->name);
+  EXPECT_THAT(replay_command("a/b/1/2", all),
+              testing::EndsWith(" replay a/b/1/2 --all-candidates"));
 }
 
 TEST(Report, IsCompleteWhateverACandidateDoes) {
