@@ -23,7 +23,7 @@ struct CampaignArguments {
   CampaignOption scored;
   WorkersOption workers;
   std::string out = "out", shard_text;
-  bool resume = false;
+  bool resume = false, has_details = false;
   double interval = RunOptions{}.interval;
 
   Campaign campaign() const {
@@ -100,7 +100,8 @@ int run_campaign(const CampaignArguments& options) {
   const Report result = campaign_result(whole);
   const auto file = write_result(whole, options.out);
   const Terminal terminal = standard_output();
-  print(fmt::format("{}\n{}Result: {}\n", terminal_table(result, terminal),
+  const auto text = options.has_details ? terminal_details : terminal_table;
+  print(fmt::format("{}\n{}Result: {}\n", text(result, terminal),
                     terminal.folded(counted(result.configurations, "configuration") +
                                     ", truth certified to 1e-30 of the larger size."),
                     file.string()));
@@ -120,6 +121,7 @@ void add_campaign(Program& program) {
   command.flag("--resume", options->resume,
                "Go on where the folder's checkpoint ends, or begin where there is none");
   command.number("--checkpoint", options->interval, {1e-3, 1e9}, "Seconds between checkpoints");
+  command.flag("--details", options->has_details, details_help);
   command.footer(
       "Examples:\n"
       "  touchstone campaign --candidates reference --count 1e6 --out run\n"

@@ -40,6 +40,9 @@ struct CandidateOption {
   Option option_;
 };
 
+/// What --details of a report's commands does.
+inline constexpr const char* details_help = "Print all tables and findings, not the first screen";
+
 /// What is named several times counts once, in every list.
 template <class T>
 void add_once(std::vector<T>& list, const T& value) {

@@ -53,6 +53,7 @@ struct ReportArguments {
   WorkersOption workers;
   std::vector<std::string> only;
   std::string out = "out", figures;
+  bool has_details = false;
 
   /// The names of the parts to make: scores always. Those that are not of single pose classes are
   /// left out where some are chosen, unless --only names them.
@@ -158,11 +159,14 @@ int run_report(const ReportArguments& options) {
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   report.partial = report.partial || interrupted();
   const Terminal terminal = standard_output();
-  std::string text = terminal_table(report, terminal) + '\n' +
-                     terminal.folded(fmt::format(
-                         "{}, truth certified to 1e-30 of the larger size, {:.0f} s.",
-                         counted(report.configurations, "configuration"), report.wall_seconds));
-  if (report.engines) text += '\n' + engines_summary(*report.engines, terminal) + '\n';
+  std::string text =
+      options.has_details ? terminal_details(report, terminal) : terminal_table(report, terminal);
+  if (options.has_details && report.engines) {
+    text += '\n' + engines_summary(*report.engines, terminal);
+  }
+  text += '\n' + terminal.folded(fmt::format(
+                     "{}, truth certified to 1e-30 of the larger size, {:.0f} s.",
+                     counted(report.configurations, "configuration"), report.wall_seconds));
   write_then_print([&] { write_report(report, folder); }, text);
   print(fmt::format("Report: {0}/report.html, {0}/report.json\n", folder));
   if (!figures_folder.empty()) {
@@ -186,6 +190,7 @@ void add_report(Program& program) {
       .text("--figures", options->figures,
             "Folder for figures as SVG, PNG and CSV, made by gnuplot")
       .value("FOLDER");
+  command.flag("--details", options->has_details, details_help);
   command.footer(
       "Examples:\n"
       "  touchstone report\n"

@@ -23,7 +23,7 @@ struct ScoreArguments {
   BarOption bar;
   WorkersOption workers;
   std::string file, configurations, out = "out", name, version, settings;
-  bool suite = false;
+  bool suite = false, has_details = false;
 
   std::string file_name() const { return file == "-" ? "standard input" : file; }
 
@@ -102,9 +102,10 @@ int run_score(const ScoreArguments& options) {
     complain("Interrupted before any pose class was done: there is no report.");
     return interrupted_exit_code();
   }
+  const auto text = options.has_details ? terminal_details : terminal_table;
   write_then_print([&] { write_report(report, options.out); },
                    fmt::format("{}\n{}, truth certified to 1e-30 of the larger size, {:.0f} s.\n",
-                               terminal_table(report, standard_output()),
+                               text(report, standard_output()),
                                counted(report.configurations, "answer"), report.wall_seconds));
   print(fmt::format("Report: {}/report.html, {}/report.json\n", options.out, options.out));
   if (report.partial) return interrupted_exit_code();
@@ -126,6 +127,7 @@ void add_score(Program& program) {
   command.text("--of-version", options->version, "Its version");
   command.text("--settings", options->settings, "How it was called");
   command.text("--out", options->out, "Folder for report.json and report.html").value("FOLDER");
+  command.flag("--details", options->has_details, details_help);
   command.footer(
       "Examples:\n"
       "  touchstone score answers.jsonl\n"

@@ -227,13 +227,6 @@ void add_contrasts(std::vector<Contrast>& result, const Table& table) {
   }
 }
 
-/// Every moving body is turned, few are exactly symmetric, and few are tilted by just so much.
-int rarity(const Contrast& c) {
-  if (c.modifier != turned) return 2;
-  const Group group = PoseClass(parse_pair(c.pair), c.arrangement + '+' + c.modifier).group();
-  return group == Group::everyday ? 0 : 1;
-}
-
 /// Of every pair and candidate, in report order.
 template <class Act>
 void each_table(const Report& report, const Act& act) {
@@ -286,6 +279,13 @@ std::vector<Contrast> contrasts(const Report& report) {
   return result;
 }
 
+/// Every moving body is turned, few are exactly symmetric, and few are tilted by just so much.
+int rarity(const Contrast& c) {
+  if (c.modifier != turned) return 2;
+  const Group group = PoseClass(parse_pair(c.pair), c.arrangement + '+' + c.modifier).group();
+  return group == Group::everyday ? 0 : 1;
+}
+
 std::vector<const Contrast*> failing_contrasts(const Report& report) {
   std::vector<const Contrast*> result;
   for (const CandidateDescription& candidate : report.candidates) {
@@ -315,9 +315,6 @@ std::string contrast_text(const Contrast& c) {
                      c.modifier, agrees(c.modified));
 }
 
-std::string contrast_command(const Contrast& c) {
-  return fmt::format("{} replay {} --candidates {}", program_name({c.candidate}),
-                     shell_quoted(c.worst), shell_quoted(c.candidate));
-}
+std::string contrast_command(const Contrast& c) { return replay_command(c.worst, {c.candidate}); }
 
 }  // namespace touchstone

@@ -31,9 +31,13 @@ std::vector<Contrast> contrasts(const Report& report);
 /// first, then the second of each.
 std::vector<const Contrast*> failing_contrasts(const Report& report);
 
-/// "ode: cylinder-cylinder/perpendicular-t agrees in 87%, turned in 30%".
+/// How often a scene may meet the modified class: 0 of everyday poses turned, 1 of others turned, 2
+/// of tilted ones.
+int rarity(const Contrast& contrast);
+
+/// "cylinder-cylinder/perpendicular-t agrees in 87%, turned in 30%".
 std::string contrast_text(const Contrast& contrast);
-/// "./touchstone replay IDENTITY --candidates ode", of the worst failure with the modifier.
+/// "./touchstone replay IDENTITY", of the worst failure with the modifier.
 std::string contrast_command(const Contrast& contrast);
 
 }  // namespace touchstone

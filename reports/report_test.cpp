@@ -117,7 +117,7 @@ TEST(Report, TheTablesWorstFailureIsTheOneWithoutAnAnswer) {
   add("everyday", Outcome::shallow, 5, "first");
   add("everyday", Outcome::crashed, 0, "second");
   add("extreme", Outcome::crashed, 0, "third");
-  EXPECT_THAT(terminal_table(report), HasSubstr("mine crashed, everyday\n    second\n"));
+  EXPECT_THAT(terminal_details(report), HasSubstr("mine crashed, everyday\n    second\n"));
 }
 
 TEST(Report, TheTableSaysWhichTimeLimitsWereExceeded) {
@@ -128,9 +128,9 @@ TEST(Report, TheTableSaysWhichTimeLimitsWereExceeded) {
   row.candidate = "mine";
   row.statistics.count = 1;
   report.summary = {row};
-  EXPECT_THAT(terminal_table(report), Not(HasSubstr("timed-out: ")));
+  EXPECT_THAT(terminal_details(report), Not(HasSubstr("timed-out: ")));
   report.summary[0].statistics.outcomes[static_cast<std::size_t>(Outcome::timed_out)] = 1;
-  EXPECT_THAT(terminal_table(report), HasSubstr("timed-out: "));
+  EXPECT_THAT(terminal_details(report), HasSubstr("timed-out: "));
 }
 
 TEST(Report, RanksNobodyWithinTheSpreads) {
@@ -178,9 +178,13 @@ TEST(Report, MarksWhoHasNoRoutineForSomePairs) {
   }
   for (const std::size_t columns : {40, 80}) {
     const std::string table = terminal_table(report, {columns});
-    EXPECT_THAT(table, ContainsRegex("all pairs, everyday poses\n.*\n.*\nlibccd-gjk 2/3 +[0-9]"));
-    EXPECT_THAT(table, ContainsRegex("\n4/5: over four of five pairs"));
-    EXPECT_THAT(table, Not(ContainsRegex("(reference|bullet) ./")));
+    const std::string details = terminal_details(report, {columns});
+    EXPECT_THAT(details, ContainsRegex("all pairs, everyday poses\n.*\n.*\nlibccd-gjk 2/3 +[0-9]"));
+    for (const std::string& text : {table, details}) {
+      EXPECT_THAT(text, ContainsRegex("\nlibccd-gjk 2/3 +[0-9]"));
+      EXPECT_THAT(text, ContainsRegex("\n4/5: over four of five pairs"));
+      EXPECT_THAT(text, Not(ContainsRegex("(reference|bullet) ./")));
+    }
   }
   c.candidates.pop_back();
   EXPECT_THAT(terminal_table(make_report(c, "x")), Not(HasSubstr("4/5")));
@@ -357,7 +361,8 @@ TEST(Report, ACandidateThatHangsIsStoppedAndTheTableSaysHowMuchItWasAsked) {
     EXPECT_EQ(row["outcomes"], json({{"timed-out", 3}, {"not-asked", 37}}));
   }
   EXPECT_THAT(terminal_table(report), HasSubstr(">=0.0"));
-  EXPECT_THAT(terminal_table(report),
+  EXPECT_THAT(terminal_table(report), HasSubstr("\n>=: stopped after 3 time-outs"));
+  EXPECT_THAT(terminal_details(report),
               HasSubstr("misdeed:5: 3 time-outs; 3 of 40 asked in 1 pose class"));
   const json read = to_json(report_from_text(written.dump(), "report"));
   EXPECT_EQ(read["results"][1]["outcomes"], written["results"][1]["outcomes"]);

@@ -147,6 +147,10 @@ Legend& Legend::line(const std::string& text) {
   return *this;
 }
 
+std::string shown_name(const std::string& candidate) {
+  return candidate == "reference" ? candidate + " (Touchstone's own)" : candidate;
+}
+
 Terminal standard_output() {
   Terminal result;
   const bool is_terminal = isatty(STDOUT_FILENO) != 0;

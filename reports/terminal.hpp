@@ -84,11 +84,19 @@ class Legend {
   std::string text_;
 };
 
-/// The summary of a report: a row for each pair and candidate in everyday poses, and for all pairs
-/// in those of the other groups, with the columns that fit; the pose classes in which a candidate
-/// is slow now and then; what a candidate passes and fails once turned or tilted; its worst
-/// failure. Commands replay both, each in a line however long.
+/// What a person reads for the candidate of this name: of Touchstone's own routine who it is.
+std::string shown_name(const std::string& candidate);
+
+/// The first screen of a report, at most 40 lines: a row for each candidate, the best first and our
+/// own routine apart, and three findings with the commands that replay them, each in a line however
+/// long.
 std::string terminal_table(const Report& report, const Terminal& terminal = {});
+
+/// All that a report says in a terminal: a row for each pair and candidate in everyday poses, and
+/// for all pairs in those of the other groups, with the columns that fit; the pose classes in which
+/// a candidate is slow now and then; what a candidate passes and fails once turned or tilted; its
+/// worst failure.
+std::string terminal_details(const Report& report, const Terminal& terminal = {});
 
 /// What was measured in experiments, and what the columns mean.
 std::string experiments_table(const ExperimentResults& results, const Terminal& terminal = {});

@@ -134,19 +134,133 @@ TEST(ReportTable, FitsIntoTheTerminalsColumns) {
   report.partial = true;
   report.results[0].time->p95 = 1e5;
   for (const std::size_t columns : {40, 57, 80}) {
-    std::istringstream table(terminal_table(report, {columns, false}));
-    for (std::string line; std::getline(table, line);) {
-      if (line.find("./touchstone") == std::string::npos) {  // a command is not broken
-        EXPECT_LE(line.size(), columns) << line;
-      }
-    }
+    EXPECT_THAT(wide_lines(terminal_table(report, {columns}), columns), testing::IsEmpty());
+    EXPECT_THAT(wide_lines(terminal_details(report, {columns}), columns), testing::IsEmpty());
   }
 }
 
-TEST(ReportTable, KeepsInANarrowTerminalWhatMattersMost) {
+/// A row over all pairs, of 100 configurations of which so many agree; the others are missed.
+ResultRow row_over_all(const char* group, const std::string& candidate, std::uint64_t agreeing) {
+  ResultRow row;
+  row.pair = "cylinder-box";
+  row.pose_class = group;
+  row.candidate = candidate;
+  row.statistics.count = 100;
+  row.statistics.outcomes[static_cast<std::size_t>(Outcome::agree)] = agreeing;
+  row.statistics.outcomes[static_cast<std::size_t>(Outcome::missed)] = 100 - agreeing;
+  row.time = QueryTime{.nanoseconds = {100, 100, 100}, .repetitions = 5};
+  return row;
+}
+
+/// Candidates with the share of everyday poses on which they agree; a little less in others.
+Report report_of(const std::vector<std::pair<std::string, std::uint64_t>>& agreeing) {
+  Report report;
+  report.tolerance = 1e-4;
+  for (const auto& [name, count] : agreeing) {
+    report.candidates.push_back({name, name, "1", "", ""});
+  }
+  for (const char* group : {"everyday", "degenerate", "extreme", "recorded"}) {
+    for (const auto& [name, count] : agreeing) {
+      report.summary.push_back(row_over_all(group, name, count));
+    }
+  }
+  return report;
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+TEST(ReportTable, HasTheBestFirstAndOurOwnRoutineBelowTheOthers) {
+  const auto lines = lines_of(
+      terminal_table(report_of({{"reference", 100}, {"poor", 31}, {"good", 99}, {"fair", 58}})));
+  ASSERT_GT(lines.size(), 7u);
+  EXPECT_THAT(lines[0], testing::StartsWith("candidate everyday degen. extreme"));
+  EXPECT_THAT(lines[1], testing::StartsWith("good          99.0   99.0    99.0"));
+  EXPECT_THAT(lines[2], testing::StartsWith("fair          58.0"));
+  EXPECT_THAT(lines[3], testing::StartsWith("poor          31.0"));
+  EXPECT_EQ(lines[4], "");
+  EXPECT_EQ(lines[5], "reference (Touchstone's own)");
+  EXPECT_THAT(lines[6], testing::StartsWith("             100.0  100.0   100.0"));
+}
+
+TEST(ReportTable, IsOneScreenOfFortyLines) {
+  Report report = report_of({{"reference", 100},
+                             {"bullet", 86},
+                             {"bullet-margin-0", 99},
+                             {"bullet-float", 78},
+                             {"ode", 90},
+                             {"fcl", 97},
+                             {"libccd-mpr", 83},
+                             {"mujoco", 80},
+                             {"capsule", 70},
+                             {"capsule-circumscribed", 45},
+                             {"spheres:8", 66},
+                             {"prism:16", 65}});
+  report.partial = true;
+  for (const char* name : {"bullet", "bullet-float", "ode", "mujoco"}) {
+    WorstCase worst = report_of_some().worst.front();
+    worst.candidate = name;
+    worst.pair = "cylinder-box";
+    worst.group = "everyday";
+    worst.score.outcome = Outcome::missed;
+    worst.examination.replay = std::string("./touchstone replay ") + name;
+    report.worst.push_back(worst);
+  }
+  const std::string text = terminal_table(report);
+  EXPECT_LE(lines_of(text).size(), 37u) << text;  // three are below it
+  EXPECT_THAT(wide_lines(text, 80), testing::IsEmpty());
+  for (const char* heading :
+       {"everyday", "degen.", "extreme", "missed", "made up", "err p99", "ns", "times"}) {
+    EXPECT_THAT(lines_of(text)[2], HasSubstr(heading));
+  }
+  EXPECT_THAT(lines_of(text)[2], Not(HasSubstr("recorded")));
+}
+
+TEST(ReportTable, SaysOfACandidateWithoutARoutineNothing) {
+  Report report = report_of({{"plain", 50}, {"other", 50}});
+  for (ResultRow& row : report.summary) {
+    if (row.candidate != "other") continue;
+    row.statistics.outcomes = {};
+    row.statistics.outcomes[static_cast<std::size_t>(Outcome::unsupported)] = 100;
+  }
+  EXPECT_THAT(lines_of(terminal_table(report))[2], testing::MatchesRegex("other( +-){9}"));
+}
+
+TEST(ReportTable, SaysOfACandidateThatNeverAnswersThatItIsNeverRight) {
+  Report report = report_of({{"silent", 0}});
+  for (ResultRow& row : report.summary) {
+    row.statistics.outcomes = {};
+    row.statistics.outcomes[static_cast<std::size_t>(Outcome::crashed)] = 100;
+    row.time.reset();
+  }
+  EXPECT_THAT(lines_of(terminal_table(report))[1],
+              testing::MatchesRegex("silent    +0.0 +0.0 +0.0 +0.0 +0 +0 +-"));
+}
+
+TEST(ReportTable, SaysNothingOfGroupsThatWereNotScored) {
+  Report report = report_of({{"mine", 50}});
+  std::erase_if(report.summary, [](const ResultRow& row) { return row.pose_class != "recorded"; });
+  const std::string text = terminal_table(report);
+  EXPECT_THAT(text, testing::StartsWith("candidate recorded missed"));
+  EXPECT_THAT(text, HasSubstr("Of recorded poses alone"));
+  report.summary.clear();
+  EXPECT_EQ(terminal_table(report), "");
+}
+
+TEST(ReportTable, KeepsInANarrowTerminalTheSharesOfEverydayPoses) {
+  const std::string text = terminal_table(report_of({{"capsule-circumscribed", 50}}), {40});
+  EXPECT_EQ(lines_of(text)[0], "candidate             everyday    ns");
+  EXPECT_THAT(text, HasSubstr("Wider terminals"));
+}
+
+TEST(ReportDetails, KeepsInANarrowTerminalWhatMattersMost) {
   const Report& report = report_of_some();
   const auto headings = [&](std::size_t columns) {
-    const std::string table = terminal_table(report, {columns, false});
+    const std::string table = terminal_details(report, {columns, false});
     std::istringstream line(table.substr(0, table.find('\n')));
     return std::vector<std::string>(std::istream_iterator<std::string>(line), {});
   };
@@ -155,24 +269,25 @@ TEST(ReportTable, KeepsInANarrowTerminalWhatMattersMost) {
   EXPECT_THAT(headings(40), testing::ElementsAre("candidate", "agree%", "yes/no", "err", "ns"));
 }
 
-TEST(ReportTable, ShowsTheBinOfZeroAsZero) {
+TEST(ReportDetails, ShowsTheBinOfZeroAsZero) {
   Report report = report_of_some();
   constexpr double denormal = 2.8e-309;
   for (ResultRow& row : report.summary) {
     row.statistics.point_error = Quantiles{0, denormal, 1};
     row.statistics.bias = SignedMedian{-denormal};
   }
-  EXPECT_THAT(terminal_table(report), testing::Not(HasSubstr("e-3")));
+  EXPECT_THAT(terminal_details(report), testing::Not(HasSubstr("e-3")));
 }
 
-TEST(ReportTable, ColoursChangeNothingElse) {
+TEST(ReportDetails, ColoursChangeNothingElse) {
   const Report& report = report_of_some();
-  const std::string coloured = terminal_table(report, {80, true});
-  EXPECT_NE(coloured, terminal_table(report));
-  EXPECT_EQ(std::regex_replace(coloured, std::regex("\x1b\\[[0-9]*m"), ""), terminal_table(report));
+  const std::string coloured = terminal_details(report, {80, true});
+  EXPECT_NE(coloured, terminal_details(report));
+  EXPECT_EQ(std::regex_replace(coloured, std::regex("\x1b\\[[0-9]*m"), ""),
+            terminal_details(report));
 }
 
-TEST(ReportTable, NamesThePoseClassesWithASlowTail) {
+TEST(ReportDetails, NamesThePoseClassesWithASlowTail) {
   Report report;
   report.candidates = {{"mine", "mine", "1", "", ""}};
   const auto add = [&](const char* pose_class, double median, std::optional<double> p95) {
@@ -186,10 +301,10 @@ TEST(ReportTable, NamesThePoseClassesWithASlowTail) {
   };
   add("general", 100, 400);
   add("parallel", 100, std::nullopt);
-  EXPECT_THAT(terminal_table(report), Not(HasSubstr("Slow tails")));
+  EXPECT_THAT(terminal_details(report), Not(HasSubstr("Slow tails")));
   add("touching", 100, 401);
   add("vertex-rim", 300, 1300);
-  EXPECT_THAT(terminal_table(report),
+  EXPECT_THAT(terminal_details(report),
               HasSubstr("mine in 2 of 3 pose classes; cylinder-box/vertex-rim: median 300 ns, p95\n"
                         "    1300 ns\n"));
 }

@@ -16,6 +16,14 @@ for only in scores timing stability experiments; do
     [ $? -eq $wanted ] || failed "report --only $only, $part"
   done
 done
+# The first screen of the default candidates, and all that there is.
+expect 0 "^reference (Touchstone's own)$" report --count 1 --group everyday --only scores --out "$folder/screen"
+also '^Findings$' '^bullet-margin-0 ' '^  ./touchstone replay cylinder-[a-z+0-9/-]*$'
+[ "$(wc -l <<<"$printed")" -le 42 ] || failed "a report prints more than 40 lines and its progress: $printed"
+! grep -q 'fcl-indep\|all pairs' <<<"$printed" || failed "a report prints details unasked"
+expect 0 '^all pairs, everyday poses$' report --count 1 --pair cylinder-plane,cylinder-sphere --class general \
+  --only scores --candidates reference,capsule --details --out "$folder/screen"
+also '^Worst failure of each candidate'
 # What is given twice counts once.
 expect 0 '^1 configuration, ' report --pair cylinder-plane,cylinder-plane --class lying,lying --count 1 \
   --candidates reference --only scores --out "$folder/twice"

@@ -35,7 +35,8 @@ commands=(candidates "classes cylinder-box" "$replayed" "$broken" "check --known
   "search --candidate bullet --pair cylinder-cylinder --class perpendicular-t-centred+turned --count 4"
   "stability $rim --candidates reference --count 1 --out $folder/s"
   "choose $can --candidates capsule --disturbances 1 --out $folder/s"
-  "report $lying --count 1 --candidates reference,bullet --only scores,timing --out $folder/s")
+  "report $lying --count 1 --candidates reference,bullet --only scores,timing --out $folder/s"
+  "report $lying --count 1 --candidates reference,bullet --only scores,timing --details --out $folder/s")
 for command in "${commands[@]}"; do
   shown=$(COLUMNS=40 "$program" $command)
   [ "$(wc -l <<<"$shown")" -gt 3 ] || failed "$command prints nothing"

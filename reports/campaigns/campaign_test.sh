@@ -45,7 +45,7 @@ refused() {
 }
 
 campaign --workers 1 --out whole >table 2>/dev/null || fail "one process"
-grep -q '^  bullet ' table || fail "no table is printed"
+grep -q '^bullet: ' table || fail "no table is printed"
 "$program" replay "$(grep -o '"id":"[^"]*"' whole/campaign.json | head -n 1 | cut -d '"' -f 4)" \
   --candidates bullet >/dev/null || fail "a worst case cannot be replayed"
 

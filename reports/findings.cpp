@@ -1,0 +1,101 @@
+#include "reports/findings.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <set>
+#include <tuple>
+
+#include "properties/files/given_text.hpp"
+#include "reports/factors.hpp"
+#include "reports/terminal.hpp"
+
+namespace touchstone {
+namespace {
+
+constexpr std::size_t max_findings = 3;
+
+/// A finding with what it is chosen by.
+struct Failing {
+  Finding finding;
+  std::string pair;
+  bool is_contrast;
+  int rarity;    ///< the less the sooner: of a contrast, or the place of the group
+  double share;  ///< by which agreement falls, or that fails
+};
+
+/// "bullet" for all its variants.
+std::string engine_of(const std::string& candidate) {
+  return candidate.substr(0, candidate.find_first_of("-+:"));
+}
+
+std::vector<Failing> contrasts_that_fail(const Report& report) {
+  std::vector<Failing> result;
+  for (const Contrast* c : failing_contrasts(report)) {
+    const std::string text = fmt::format("{}: {}", shown_name(c->candidate), contrast_text(*c));
+    result.push_back({{c->candidate, text, contrast_command(*c)},
+                      c->pair,
+                      true,
+                      rarity(*c),
+                      c->modified.share() - c->plain.share()});
+  }
+  return result;
+}
+
+/// The most frequent failure of each pair, group and candidate.
+std::vector<Failing> frequent_failures(const Report& report) {
+  std::vector<Failing> result;
+  std::vector<std::string> groups;
+  for (const ResultRow& row : report.summary) {
+    if (groups.empty() || groups.back() != row.pose_class) groups.push_back(row.pose_class);
+    if (row.pair == "all" || row.statistics.agreeing() == row.statistics.asked()) continue;
+    const auto times = [&](Outcome o) {
+      const bool is_failure = !agrees(o) && o != Outcome::unsupported && o != Outcome::not_asked;
+      return is_failure ? row.statistics.of(o) : 0;
+    };
+    const Outcome outcome = *std::ranges::max_element(all_outcomes, {}, times);
+    const auto worst = std::ranges::find_if(report.worst, [&](const WorstCase& w) {
+      return w.pair == row.pair && w.group == row.pose_class && w.candidate == row.candidate &&
+             w.score.outcome == outcome;
+    });
+    if (worst == report.worst.end()) continue;
+    const std::string text = fmt::format(
+        "{}: {} in {} of {} of {}", shown_name(row.candidate), outcome_name(outcome),
+        times(outcome), counted(row.statistics.supported(), row.pose_class + " pose"), row.pair);
+    result.push_back(
+        {{row.candidate, text, worst->examination.replay},
+         row.pair,
+         false,
+         static_cast<int>(groups.size()),
+         static_cast<double>(times(outcome)) / static_cast<double>(row.statistics.supported())});
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<Finding> findings(const Report& report) {
+  std::vector<Failing> all = contrasts_that_fail(report);
+  std::ranges::move(frequent_failures(report), std::back_inserter(all));
+  std::set<std::string> models, engines;
+  for (const CandidateDescription& c : report.candidates) {
+    if (!c.models.empty()) models.insert(c.name);
+  }
+  std::vector<Finding> result;
+  while (result.size() < max_findings && !all.empty()) {
+    const auto urgency = [&](const Failing& f) {
+      const std::string& name = f.finding.candidate;
+      return std::tuple(!models.contains(name), !engines.contains(engine_of(name)), f.is_contrast,
+                        -f.rarity, f.share);
+    };
+    const Failing first = *std::ranges::max_element(all, {}, urgency);
+    engines.insert(engine_of(first.finding.candidate));
+    result.push_back(first.finding);
+    std::erase_if(all, [&](const Failing& f) {
+      return f.is_contrast ||
+             (f.pair == first.pair && f.finding.candidate == first.finding.candidate);
+    });
+  }
+  return result;
+}
+
+}  // namespace touchstone
