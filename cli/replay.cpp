@@ -43,7 +43,8 @@ int run_replay(const ReplayArguments& options, bool emits) {
     write_file(options.html, replay_page(shown, given.description), "--html");
   }
   print(options.json ? replay_json(shown)
-                     : replay_text(shown, given.description, standard_output()));
+                     : replay_text(shown, given.description, options.candidates.are_named(),
+                                   standard_output()));
   return 0;
 }
 

@@ -25,11 +25,12 @@ Examination examine(const Subject& subject, std::span<CandidateProcess* const> c
 // An examination shown to a person. `description` is that of its pose class; empty without one.
 // Precondition: the examination has its truth.
 
-/// One line for each candidate (three on a narrow terminal), then the truth, all of each
-/// candidate's answer and score, and last the configuration's numbers (as a line for `solve`, as
-/// exact fractions, in hexadecimal floats), whose lines alone are longer than the terminal's.
+/// A table of the truth and each candidate's answer. `in_full`: also all digits of the truth, all
+/// of each candidate's answer and score, and last the configuration's numbers (as a line for
+/// `solve`, as exact fractions, in hexadecimal floats), whose lines alone are longer than the
+/// terminal's.
 std::string replay_text(const Examination& examination, const std::string& description,
-                        const Terminal& terminal = {});
+                        bool in_full, const Terminal& terminal = {});
 
 /// One JSON object, as in a report's worst cases.
 std::string replay_json(const Examination& examination);

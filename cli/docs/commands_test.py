@@ -41,8 +41,8 @@ import sys; sys.path.insert(0, "suite")
 import json, judge
 for case in judge.read("suite/touchstone-suite-1.csv.gz"):
     print(json.dumps({"id": case["id"], "status": "none"}))' > answers.jsonl""",
-    "poses.jsonl": "./touchstone replay cylinder-plane/lying/1/0 | grep '^{' | tail -n 1 "
-                   "> poses.jsonl",
+    "poses.jsonl": "./touchstone replay cylinder-plane/lying/1/0 --candidates reference | "
+                   "grep '^{' | tail -n 1 > poses.jsonl",
     "mine.jsonl": """sed -i 's/^{/{"id":"p1",/' poses.jsonl &&
         echo '{"id":"p1","status":"none"}' > mine.jsonl""",
     "robot.urdf": "cp simulation/scenes/gripper.urdf robot.urdf",

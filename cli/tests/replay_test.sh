@@ -2,11 +2,22 @@
 # One configuration again: what is printed, its page, and programs that show it to an engine's maintainers.
 . "$(dirname "$0")/prelude.sh"
 
-# One line for each candidate comes first; lines of JSON alone, which come last, are longer than a terminal.
-expect 0 '^reference  *contact  *agree ' replay $rim
-also 'reference: contact, agree'
+# A table of the truth and the default candidates, and of those that are named all that they answer. Lines of JSON
+# alone, which come last, are longer than a terminal.
+expect 0 "^reference (Touchstone's own)$" replay $rim
+also '^truth  *-[0-9.e-]*$' '^bullet  *unseen  *none' '^normal (.*), ties: unique; contact patch: point$'
 [ "$(sed -n 4p <<<"$printed" | cut -c 1-9)" = candidate ] || failed "replay begins with $printed"
-grep -v '^{' <<<"$printed" | awk 'length($0) > 80 { exit 1 }' || failed "replay is wider than 80 columns"
+[ "$(wc -l <<<"$printed")" -le 25 ] || failed "replay prints more than 25 lines: $printed"
+! grep -q '^  point \|^{' <<<"$printed" || failed "replay prints points unasked"
+awk 'length($0) > 80 { exit 1 }' <<<"$printed" || failed "replay is wider than 80 columns"
+expect 0 '^ode: contact, agree' replay $rim --candidates reference,ode
+also 'reference: contact, agree' '^  point (' '^    depth [0-9.e-]*$' '^truth: signed distance between$' '^{"a":'
+grep -v '^{' <<<"$printed" | awk 'length($0) > 80 { exit 1 }' || failed "an answer is wider than 80 columns"
+# Variants are asked when they are named, or all candidates.
+! "$program" replay $rim | grep -q fcl-indep || failed "replay asks variants unasked"
+expect 0 '^fcl-indep  *agree' replay $rim --all-candidates
+expect 2 '^error: --.*candidates is given with --.*candidates: must stand without it' \
+  replay $rim --all-candidates --candidates bullet
 expect 0 "\"id\":\"$rim\"" replay $rim --json
 expect 0 'reference: contact' replay <(echo "$printed") --candidates reference
 expect 0 'reference: contact' replay $rim --candidates reference --html "$folder/page.html"

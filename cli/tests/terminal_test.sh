@@ -11,7 +11,7 @@ on_terminal() { TERM=xterm script -qec "stty cols $1; '$program' $2" /dev/null <
 wider_than() { grep ".\{$(($1 + 1))\}" <<<"$2"; }
 
 replayed="replay cylinder-box/edge-cap/1/2 --candidates reference,bullet"
-[[ $(on_terminal 80 "$replayed") == *$'\e[32magree'* ]] || failed "no colour on a terminal"
+[[ $(on_terminal 80 "$replayed") == *$'\e[32mreference'* ]] || failed "no colour on a terminal"
 [[ $(NO_COLOR=1 on_terminal 80 "$replayed") != *$'\e'* ]] || failed "colour in spite of NO_COLOR"
 [[ $(on_terminal 80 "export --format npz --count 1 $lying") == *'--out is a terminal: must be a file or a pipe for npz'* ]] ||
   failed "npz goes to a terminal"
