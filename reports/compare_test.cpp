@@ -119,8 +119,11 @@ TEST(Compare, NamesPairClassCandidateAndFactorOfALargerError) {
                                                         "worse rim-face mine depth error, p99",
                                                         "worse rim-face mine depth error, max"));
   EXPECT_TRUE(c.has_regressed());
-  EXPECT_THAT(comparison_text(c), HasSubstr("Worse: 1\n  cylinder-box/rim-face  mine\n"));
-  EXPECT_THAT(comparison_text(c), HasSubstr("x 3\n"));
+  EXPECT_THAT(comparison_text(c),
+              testing::StartsWith("mine: worse on cylinder-box, 1 class, depth error, median "
+                                  "1.0e-07 -> 3.0e-07\n\n"
+                                  "mine, cylinder-box: worse\n"
+                                  "  rim-face  depth error, median 1.0e-07 -> 3.0e-07 (x 3)\n"));
   // The other way round it is better, and within wider limits nothing to report.
   const Comparison back = compare(now, small_report(), {});
   EXPECT_EQ(changes(back).front().substr(0, 6), "better");
@@ -202,13 +205,38 @@ TEST(Compare, LostAgreementIsARegressionUnlessAllowed) {
   EXPECT_TRUE(compare(now, none, {}).has_regressed());
 }
 
+TEST(Compare, TheVerdictIsOfAllClassesThatAreWorse) {
+  json now = small_report();
+  now["results"][1] = row("rim-face", "mine", 60, 1e-3, 200);
+  now["results"][3] = row("touching", "mine", 70, 1e-6, 200);
+  EXPECT_THAT(
+      comparison_text(compared_with(now)),
+      testing::AllOf(testing::StartsWith(
+                         "mine: worse on cylinder-box, 2 classes, agreement 80.0% -> 65.0%\n\n"),
+                     HasSubstr("  rim-face  agreement 80.0% -> 60.0% (x 0.75)\n"),
+                     HasSubstr("  touching  agreement 80.0% -> 70.0% (x 0.875)\n")));
+}
+
+TEST(Compare, TheTextSaysOfMoreThanTwentyClassesHowManyThereAre) {
+  json old = small_report(), now = small_report();
+  for (int i = 0; i < 30; ++i) {
+    const std::string name = "z" + std::to_string(i);
+    old["results"].push_back(row(name.c_str(), "mine", 90, 1e-6, 200));
+    now["results"].push_back(row(name.c_str(), "mine", 80, 1e-6, 200));
+  }
+  const std::string text = comparison_text(compare(old, now, {}));
+  EXPECT_THAT(text, testing::StartsWith("mine: worse on cylinder-box, 30 classes, "));
+  EXPECT_THAT(text, HasSubstr("\nand 10 more, which --json lists\n"));
+}
+
 TEST(Compare, ALostRoutineIsARegression) {
   json now = small_report();
   now["results"][1]["outcomes"] = {{"unsupported", 100}};
   const Comparison c = compared_with(now);
   EXPECT_THAT(changes(c), ElementsAre("worse rim-face mine has a routine"));
   EXPECT_TRUE(c.has_regressed());
-  EXPECT_THAT(comparison_text(c), HasSubstr("yes ->         no"));
+  EXPECT_THAT(comparison_text(c), testing::StartsWith("mine: worse on cylinder-box, 1 class, has "
+                                                      "a routine yes -> no\n"));
   EXPECT_FALSE(compare(now, small_report(), {}).has_regressed());
 }
 

@@ -31,7 +31,7 @@ expect 0 '^1 configuration, ' report --pair cylinder-plane,cylinder-plane --clas
 expect 0 'report.html' report $lying --count 1 --candidates reference,bullet --only scores,timing --out "$folder/a b"
 [ -s "$folder/a b/report.html" ] || failed "no report.html"
 r="$folder/a b/report.json"
-expect 0 'No change' compare "$r" "$r" --html "$folder/compare.html"
+expect 0 '^No change[.]$' compare "$r" "$r" --html "$folder/compare.html"
 also '100% of what agreed must agree still'
 page_data "$folder/compare.html" | grep -q 'cylinder-plane' || failed "no page of compare"
 expect 0 '"changes":\[\]' compare "$r" "$r" --json
@@ -42,9 +42,9 @@ row = next(r for r in report["results"] if r["class"] == "lying" and r["candidat
 row["depth_error"] = {q: v if q == "histogram" else 3 * v + 1e-3 for q, v in row["depth_error"].items()}
 json.dump(report, open(sys.argv[2], "w"))
 END
-expect 1 'cylinder-plane/lying  bullet' compare "$r" "$folder/worse.json"
+expect 1 '^bullet: worse on cylinder-plane, 1 class, depth error' compare "$r" "$folder/worse.json"
 expect 0 'smaller changes' compare "$r" "$folder/worse.json" --max-error-factor 1e300
-expect 0 'Better: 1' compare "$folder/worse.json" "$r"
+expect 0 '^bullet: better on cylinder-plane, 1 class, ' compare "$folder/worse.json" "$r"
 expect 0 '"fail_on":\["accuracy","time"\]' compare "$r" "$r" --json --fail-on time
 expect 2 '--fail-on is "speed": must be accuracy' compare "$r" "$r" --fail-on speed
 expect 2 '--max-error-factor is "0.5"' compare "$r" "$r" --max-error-factor 0.5
