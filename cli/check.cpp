@@ -116,9 +116,9 @@ std::vector<LawResult> check_laws(const Candidate* candidate, const CheckOptions
   CandidateProcess process(*candidate, checks.bar.threshold);
   const Terminal terminal = standard_output();
   teller.tell(terminal.folded(fmt::format(
-      "{} {}, seed {}, {} of each pair and pose class{}, tolerance {}", process.candidate().name,
-      process.candidate().version, checks.seed, counted(checks.count, "configuration"),
-      groups_text(checks.groups), checks.bar.tolerance)));
+      "{} {}, seed {}, {} of each pair and pose class{}, tolerance {}",
+      shown_name(process.candidate().name), process.candidate().version, checks.seed,
+      counted(checks.count, "configuration"), groups_text(checks.groups), checks.bar.tolerance)));
   std::unique_ptr<Progress> progress;
   auto results = check(process, checks, [&](std::uint64_t done, std::uint64_t all) {
     if (!progress) progress = std::make_unique<Progress>("configurations", all);

@@ -32,26 +32,31 @@ std::string answer_words(const std::optional<ts_answer>& answer) {
                      number_text(n[2]), counted(answer->point_count, "point"));
 }
 
+/// What was found, and the law that it breaks.
+std::string breach_text(const Failure& f, const Terminal& terminal) {
+  return terminal.folded(fmt::format("{} {}, {}: {}", pair_name(pair_of(f.configuration)), f.law,
+                                     f.violation.failure, f.violation.detail)) +
+         terminal.below(find_law(f.law).statement);
+}
+
+/// The configuration once, in the command that shows it again: its decimals are the doubles.
+std::string case_text(const Failure& f, const Terminal& terminal) {
+  const oracle::Enclosure truth = oracle::truth(f.configuration).signed_distance;
+  const auto group = group_met(f);
+  return terminal.below(fmt::format("first met{} as {}; simplified:",
+                                    group ? fmt::format(" in {} poses", group_name(*group)) : "",
+                                    f.identity)) +
+         fmt::format("  echo '{}' | {} replay - --candidates {} --threshold {}\n",
+                     to_json(f.configuration).dump(), program_name({f.candidate}), f.candidate,
+                     f.bar.threshold) +
+         terminal.below(fmt::format("truth: signed distance {} m", nearest_to_middle(truth))) +
+         terminal.below("answer: " + answer_words(f.answer));
+}
+
 }  // namespace
 
 std::string failure_text(const Failure& f, const Terminal& terminal) {
-  const oracle::Enclosure truth = oracle::truth(f.configuration).signed_distance;
-  std::string text =
-      terminal.folded(fmt::format("{} {}, {}: {}", pair_name(pair_of(f.configuration)), f.law,
-                                  f.violation.failure, f.violation.detail));
-  text += terminal.below(find_law(f.law).statement);
-  const auto group = group_met(f);
-  text += terminal.below(fmt::format("first met{} as {}; simplified:",
-                                     group ? fmt::format(" in {} poses", group_name(*group)) : "",
-                                     f.identity));
-  text += fmt::format("  {}\n  {}\n", to_json(f.configuration).dump(),
-                      to_hex_json(f.configuration).dump());
-  text += terminal.below(fmt::format("truth: signed distance {} m", nearest_to_middle(truth)));
-  text += terminal.below("answer: " + answer_words(f.answer));
-  text += fmt::format("  echo '{}' | {} replay - --candidates {} --threshold {}\n",
-                      to_hex_json(f.configuration).dump(), program_name({f.candidate}), f.candidate,
-                      f.bar.threshold);
-  return text;
+  return breach_text(f, terminal) + case_text(f, terminal);
 }
 
 namespace {
@@ -166,7 +171,14 @@ std::string check_text(const std::vector<LawResult>& results, const Terminal& te
   std::stable_sort(firsts.begin(), firsts.end(), [](const Failure* a, const Failure* b) {
     return order_of(group_met(*a)) < order_of(group_met(*b));
   });
-  for (const Failure* f : firsts) text += '\n' + failure_text(*f, terminal);
+  std::vector<std::pair<std::string, std::string>> cases;  // with all that each breaks
+  for (const Failure* f : firsts) {
+    const std::string shown = case_text(*f, terminal);
+    auto at = std::ranges::find(cases, shown, &std::pair<std::string, std::string>::first);
+    if (at == cases.end()) at = cases.insert(at, {shown, ""});
+    at->second += breach_text(*f, terminal);
+  }
+  for (const auto& [shown, breaches] : cases) text += '\n' + breaches + shown;
   return text;
 }
 

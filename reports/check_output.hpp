@@ -12,9 +12,8 @@
 
 namespace touchstone {
 
-/// What broke which law, in decimals and hexadecimal floats, with the truth, the answer and the
-/// command that shows it again. Commands and configurations stand in lines of their own, however
-/// long.
+/// What broke which law, with the truth, the answer and the command that shows it again, in a line
+/// of its own however long.
 std::string failure_text(const Failure& failure, const Terminal& terminal);
 
 /// What `touchstone check` finds of a candidate.
@@ -29,7 +28,7 @@ struct CheckResult {
 };
 
 /// A line for each law and pair, and the first failure of each with what is needed to see it again,
-/// in the order of their groups.
+/// in the order of their groups; laws that one configuration breaks stand together.
 std::string check_text(const std::vector<LawResult>& laws, const Terminal& terminal);
 /// A line for each saved failure that was asked again.
 std::string corpus_text(const std::vector<ReplayedFailure>& corpus, const Terminal& terminal);
