@@ -18,6 +18,7 @@
 #include "reports/report_json.hpp"
 #include "reports/stability/measure.hpp"
 #include "reports/terminal.hpp"
+#include "reports/test_data/given_answers.hpp"
 #include "simulation/engines/run_engines.hpp"
 #include "simulation/experiment.hpp"
 #include "simulation/run_experiments.hpp"
@@ -52,7 +53,7 @@ struct ReportArguments {
   CampaignOption scored;
   WorkersOption workers;
   std::vector<std::string> only;
-  std::string out = "out", figures;
+  std::string out = "out", figures, configurations;
   bool has_details = false;
 
   /// The names of the parts to make: scores always. Those that are not of single pose classes are
@@ -67,15 +68,47 @@ struct ReportArguments {
     chosen.insert("scores");
     if (!only.empty()) return chosen;
     chosen.insert("timing");
-    if (scored.sample.is_narrowed()) return chosen;
+    if (scored.sample.is_narrowed() || !configurations.empty()) return chosen;
     for (const Part& part : parts()) chosen.insert(part.name);
     return chosen;
+  }
+
+  /// A person's own configurations, in place of drawn ones.
+  void take_own(Campaign& c) const {
+    if (scored.sample.is_narrowed() || scored.sample.count_is_given()) {
+      throw InvalidInput("--configurations", '"' + configurations + '"',
+                         "leaves no choice of --pair, --class, --group or --count");
+    }
+    std::ifstream in = opened(configurations, "--configurations");
+    std::vector<std::pair<std::string, ConfigurationFile::Entry>> all;
+    try {
+      const ConfigurationFile file(in);
+      all.assign(file.entries().begin(), file.entries().end());
+    } catch (const InvalidInput& e) {
+      throw InvalidInput(configurations + ": " + e.field(), e.value(), e.remedy());
+    }
+    if (all.empty()) {
+      throw InvalidInput("--configurations", '"' + configurations + '"',
+                         "must have a configuration, one a line");
+    }
+    std::ranges::sort(all, {}, [](const auto& entry) { return entry.second.number; });
+    for (const auto& [id, entry] : all) {
+      const Configuration& configuration = entry.given.configuration;
+      c.own[pair_of(configuration)].push_back({id, configuration});
+    }
+    c.own_file = configurations;
+    c.pairs.clear();
+    for (const auto& [pair, of_pair] : c.own) c.pairs.push_back(pair);
   }
 
   Campaign campaign() const {
     Campaign c = scored.get();
     if (c.classes.empty()) c.everyday_times = everyday_times;
     c.workers = workers.get();
+    if (!configurations.empty()) {
+      take_own(c);
+      return c;
+    }
     const std::uint64_t max_count =
         max_answers /
         std::max<std::uint64_t>(1, cells(c).size() * c.everyday_times * c.candidates.size());
@@ -90,7 +123,11 @@ struct ReportArguments {
 
   /// The command that gives the same report again.
   std::string command_line() const {
-    return program_name() + " report" + scored.command_line() +
+    const std::string scored_ones =
+        configurations.empty() ? scored.command_line()
+                               : " --configurations " + shell_quoted(configurations) +
+                                     scored.candidates.command_line() + scored.bar.command_line();
+    return program_name() + " report" + scored_ones +
            (only.empty() ? "" : fmt::format(" --only {}", fmt::join(only, ",")));
   }
 };
@@ -187,6 +224,10 @@ void add_report(Program& program) {
       .value("REPORT-PART");
   command.text("--out", options->out, "Folder for report.json and report.html").value("FOLDER");
   command
+      .text("--configurations", options->configurations,
+            "Your own, in place of drawn ones: a file as for solve, with an id a line")
+      .value("FILE");
+  command
       .text("--figures", options->figures,
             "Folder for figures as SVG, PNG and CSV, made by gnuplot")
       .value("FOLDER");
@@ -197,6 +238,7 @@ void add_report(Program& program) {
       "  touchstone report --pair cylinder-box --count 1000 --seed 7\n"
       "  touchstone report --candidates reference,bullet --class rim-rim,touching\n"
       "  touchstone report --group everyday --count 100\n"
+      "  touchstone report --configurations poses.jsonl\n"
       "  touchstone report --figures figures\n"
       "  touchstone report --only scores,timing\n"
       "Of everyday pose classes, recorded ones and arrangements along the world's axes\n"

@@ -5,10 +5,15 @@
 #include <iterator>
 #include <utility>
 
+#include "properties/numbers.hpp"
+#include "properties/stable_hash.hpp"
+
 namespace touchstone {
 
 std::vector<PoseClass> cells(const Campaign& campaign) {
   std::vector<PoseClass> result;
+  for (const auto& [pair, configurations] : campaign.own) result.push_back(given_class(pair));
+  if (!result.empty()) return result;
   const ClassSelection wanted{campaign.classes, campaign.groups, campaign.coverage};
   check_pose_classes(campaign.pairs, campaign.classes);
   check_groups(campaign.pairs, wanted);
@@ -21,9 +26,40 @@ std::vector<PoseClass> cells(const Campaign& campaign) {
 
 std::uint64_t count_of(const Campaign& campaign, const PoseClass& cell) {
   const Group group = cell.group();
+  if (group == Group::given) return campaign.own.at(cell.pair).size();
   const bool everyday = group == Group::everyday || group == Group::recorded;
   const bool aligned = cell.modifiers.count() == 1 && cell.modifiers.frame() == Frame::aligned;
   return campaign.count * (everyday || aligned ? campaign.everyday_times : 1);
+}
+
+namespace {
+
+/// Null of one that is drawn.
+const OwnConfiguration* own_one(const Campaign& campaign, const Identity& identity) {
+  if (identity.pose_class.group() != Group::given) return nullptr;
+  return &campaign.own.at(identity.pose_class.pair)[identity.index];
+}
+
+}  // namespace
+
+Configuration configuration_of(const Campaign& campaign, const Identity& identity) {
+  const OwnConfiguration* const own = own_one(campaign, identity);
+  return own ? own->configuration : make_configuration(identity);
+}
+
+std::string name_of(const Campaign& campaign, const Identity& identity) {
+  const OwnConfiguration* const own = own_one(campaign, identity);
+  return own ? own->id : to_string(identity);
+}
+
+std::uint64_t hash_of(const Configuration& configuration) {
+  Numbers numbers = numbers_of(configuration);
+  std::string bytes;
+  for (const double* number : every_number(numbers)) {
+    const double x = *number + 0.0;  // zeros of either sign are equal
+    bytes.append(reinterpret_cast<const char*>(&x), sizeof x);
+  }
+  return stable_hash(bytes);
 }
 
 std::vector<Answer> answers_until_stopped(

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -14,12 +15,21 @@
 
 namespace touchstone {
 
+/// A configuration of a person's own, by its id in a file.
+struct OwnConfiguration {
+  std::string id;
+  Configuration configuration;
+};
+
 /// Which configurations are scored, by whom, and how strictly.
 struct Campaign {
   std::vector<Pair> pairs = {};
   std::vector<std::string> classes = {};  ///< empty: all; else each must be of one of the pairs
   std::vector<Group> groups = {};         ///< empty: all
   Coverage coverage = Coverage::pairs;
+  /// In place of drawn ones, if there are any: those of each pair, its class "given".
+  std::map<Pair, std::vector<OwnConfiguration>> own = {};
+  std::string own_file = {};  ///< that they are in; "-": standard input
   std::vector<const Candidate*> candidates = {};
   std::uint64_t count = 100;  ///< configurations of each pair × class
   bool is_timed = true;       ///< are answers timed in a report?
@@ -36,6 +46,14 @@ struct Campaign {
 /// class belongs to none of the pairs.
 std::vector<PoseClass> cells(const Campaign& campaign);
 std::uint64_t count_of(const Campaign& campaign, const PoseClass& cell);
+/// One configuration of a cell, drawn or the person's own, and what it is called: by its identity,
+/// or its id in the file.
+Configuration configuration_of(const Campaign& campaign, const Identity& identity);
+std::string name_of(const Campaign& campaign, const Identity& identity);
+
+/// A number made from those of a configuration: sums tell files of configurations apart, whatever
+/// their order.
+std::uint64_t hash_of(const Configuration& configuration);
 
 /// Width of every truth that a score is against, relative to the larger size.
 inline constexpr double truth_width = 1e-30;

@@ -173,6 +173,13 @@ void rank(std::span<ResultRow> rows, const std::function<bool(const ResultRow&)>
   for (std::size_t i = 0; i < placed.size(); ++i) placed[i]->pareto = front[i];
 }
 
+/// What tells a file's configurations from others.
+std::string digest_of_own(const std::vector<OwnConfiguration>& own) {
+  std::uint64_t sum = 0;
+  for (const OwnConfiguration& o : own) sum += hash_of(o.configuration);
+  return fmt::format("{:016x}", sum);
+}
+
 }  // namespace
 
 void add_results(Report& report, const Scored& scored) {
@@ -265,7 +272,20 @@ Report make_report(const Campaign& campaign, const std::string& command) {
     report.candidates.push_back(
         {c->name, c->family, c->version, c->settings, c->models, c->precision, c->runs});
   }
-  add_results(report, {all, pointers(samples), times});
+  Scored scored{all, pointers(samples), times};
+  if (!campaign.own.empty()) {
+    scored.name = [&](const Identity& i) { return name_of(campaign, i); };
+    scored.replay = [&](const Identity& i, const std::vector<std::string>& names) {
+      const Subject subject{campaign.own_file, "", configuration_of(campaign, i),
+                            name_of(campaign, i)};
+      return replay_command(subject, names);
+    };
+  }
+  add_results(report, scored);
+  for (PoseClassDescription& c : report.classes) {
+    if (c.group == group_name(Group::given))
+      c.digest = digest_of_own(campaign.own.at(parse_pair(c.pair)));
+  }
   if (!report.partial) report.drake_protocol = drake_protocol(campaign, candidates);
   report.wall_seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

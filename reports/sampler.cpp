@@ -102,7 +102,7 @@ std::vector<Sample> sample_run(const Campaign& campaign, Resolution resolution,
   for (std::size_t unit = 0; unit < run.size(); ++unit) {
     for (std::uint64_t i = run[unit].first; i < run[unit].last; ++i) {
       places.push_back({unit, i});
-      configurations.push_back(make_configuration(identity(places.back())));
+      configurations.push_back(configuration_of(campaign, identity(places.back())));
     }
     unit_ends.push_back(places.size());
   }
@@ -123,7 +123,7 @@ std::vector<Sample> sample_run(const Campaign& campaign, Resolution resolution,
                     ++at;
                   });
   } catch (const std::exception& e) {
-    throw std::runtime_error(to_string(identity(places[at])) + ": " + e.what());
+    throw std::runtime_error(name_of(campaign, identity(places[at])) + ": " + e.what());
   }
   return result;
 }
@@ -135,8 +135,8 @@ Scorer scorer(const Campaign& campaign, Resolution resolution) {
           [=, cells = cells(campaign)](const UnitRun& run) {
             return sample_run(campaign, resolution, pointers(candidates->get()), cells, run);
           },
-          [cells = cells(campaign), seed = campaign.seed](const Unit& unit) {
-            return to_string(Identity{cells[unit.cell], seed, unit.first});
+          [=, cells = cells(campaign)](const Unit& unit) {
+            return name_of(campaign, {cells[unit.cell], campaign.seed, unit.first});
           }};
 }
 

@@ -125,7 +125,7 @@ Times time_queries(const Campaign& campaign, const std::vector<PoseClass>& cells
   if (interrupted() || !campaign.is_timed) return times;
   std::vector<std::size_t> timed;
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    const bool wanted = !campaign.classes.empty() || is_timed(cells[i]);
+    const bool wanted = !campaign.classes.empty() || !campaign.own.empty() || is_timed(cells[i]);
     if (samples[i] && wanted) timed.push_back(i);
   }
   const OnOneProcessor alone;

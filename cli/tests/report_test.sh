@@ -24,6 +24,21 @@ also '^Findings$' '^bullet-margin-0 ' '^  ./touchstone replay cylinder-[a-z+0-9/
 expect 0 '^all pairs, everyday poses$' report --count 1 --pair cylinder-plane,cylinder-sphere --class general \
   --only scores --candidates reference,capsule --details --out "$folder/screen"
 also '^Worst failure of each candidate'
+# A person's own configurations, by their ids.
+for id in 1 two; do
+  echo '{"id":"'$id'","a":{"shape":"cylinder","radius":1,"half_length":1},"b":{"shape":"box","half_extents":[1,1,1]},
+    "pose_a":{"orientation":[1,0,1,1]}}' | tr -d '\n'
+  echo
+done >"$folder/poses.jsonl"
+own=(report --configurations "$folder/poses.jsonl" --candidates reference,bullet)
+expect 0 '^bullet: shallow in 2 of 2 given poses of cylinder-box$' "${own[@]}" --out "$folder/own"
+also '^2 configurations, ' "^  ./touchstone replay $folder/poses.jsonl --id \(1\|two\)$" '^candidate *given'
+expect 0 'bullet' replay "$folder/poses.jsonl" --id two
+expect 0 '^No change[.]$' compare "$folder/own/report.json" "$folder/own/report.json"
+expect 2 '^error: --configurations is ".*poses.jsonl": leaves no choice of --pair, --class, --group or --count' \
+  "${own[@]}" --count 3
+expect 2 '^error: .*: line 1.line is no JSON' report --configurations <(echo rubbish) --candidates reference
+expect 2 '^error: --configurations is "/dev/null": must have a configuration' report --configurations /dev/null
 # What is given twice counts once.
 expect 0 '^1 configuration, ' report --pair cylinder-plane,cylinder-plane --class lying,lying --count 1 \
   --candidates reference --only scores --out "$folder/twice"

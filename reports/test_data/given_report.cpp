@@ -5,8 +5,6 @@
 #include <stdexcept>
 
 #include "candidates/host/interruption.hpp"
-#include "properties/numbers.hpp"
-#include "properties/stable_hash.hpp"
 #include "reports/make_report.hpp"
 #include "reports/test_data/given_answers.hpp"
 
@@ -23,17 +21,6 @@ Answer GivenAnswer::answer() const {
 }
 
 namespace {
-
-/// A number made from those of a configuration.
-std::uint64_t hash_of(const Configuration& configuration) {
-  Numbers numbers = numbers_of(configuration);
-  std::string bytes;
-  for (const double* number : every_number(numbers)) {
-    const double x = *number + 0.0;  // zeros of either sign are equal
-    bytes.append(reinterpret_cast<const char*>(&x), sizeof x);
-  }
-  return stable_hash(bytes);
-}
 
 Configuration configuration_of(const PoseClass& cell, std::uint64_t seed,
                                const GivenAnswer& answer) {
