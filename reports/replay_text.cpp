@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "candidates/readable.hpp"
+#include "properties/files/answer_json.hpp"
 #include "properties/files/configuration_json.hpp"
-#include "properties/files/given_text.hpp"
 #include "reports/replay.hpp"
 #include "reports/report_json.hpp"
 
