@@ -8,8 +8,6 @@
 
 #include "cli/command.hpp"
 #include "cli/options.hpp"
-#include "oracle/audit/certificate.hpp"
-#include "properties/files/configuration_json.hpp"
 
 namespace touchstone {
 namespace {
@@ -52,41 +50,6 @@ void add_solve(Program& program) {
       "box (half_extents), plane (normal, displacement).\n"
       "A pose has position and orientation (w, x, y, z).");
   command.runs([options] { return run_solve(*options); });
-}
-
-namespace {
-
-struct CertifyOptions {
-  std::string input;
-  double width = 1e-30;
-  std::uint64_t cells = 4000;
-};
-
-int run_certify(const CertifyOptions& options) {
-  const Configuration c = given_configuration(options.input).configuration;
-  const audit::Certificate certificate =
-      audit::certify(c, {options.width, static_cast<int>(options.cells)});
-  print(fmt::format("{}\n", certificate_json(certificate, c)));
-  return 0;
-}
-
-}  // namespace
-
-void add_certify(Program& program) {
-  Command command =
-      program.command("certify", "Prove one signed distance: a file that others can check");
-  const auto options = std::make_shared<CertifyOptions>();
-  command.text("input", options->input, given_help).value("IDENTITY").required();
-  command.number("--width", options->width, {1e-60, 1e30},
-                 "Width to prove, relative to the larger size; down to 1e-60");
-  command.count("--cells", options->cells, {0, 1000000},
-                "End at so many cells of directions, with the width reached by then");
-  command.footer(
-      "Examples:\n"
-      "  touchstone certify cylinder-box/parallel+tilted-1e-6/42/137 > proof.json\n"
-      "  touchstone certify --width 1e-12 pose.jsonl > proof.json\n"
-      "  python3 oracle/check_certificate.py proof.json");
-  command.runs([options] { return run_certify(*options); });
 }
 
 }  // namespace touchstone

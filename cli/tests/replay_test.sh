@@ -41,7 +41,7 @@ expect 2 '^error: input is ".*/lines.jsonl": must hold one configuration, not 2;
   replay "$folder/lines.jsonl"
 expect 2 'must hold one configuration, not 2' replay "$folder/lines.jsonl@1e-2/1/0"
 expect 2 'must hold one configuration, not 2' stability "$folder/lines.jsonl"
-expect 2 'must hold one configuration, not 2' certify "$folder/lines.jsonl"
+expect 2 'must hold one configuration, not 2' replay --certify "$folder/lines.jsonl"
 expect 2 '^error: --id is "three": must be one of one, 2$' replay "$folder/lines.jsonl" --id three
 expect 2 '^error: --id is "one": must be of a line of a file$' replay $rim --id one
 expect 2 'nosuch.jsonl.*there is no such file' replay "$folder/nosuch.jsonl" --id one
@@ -88,9 +88,9 @@ expect 2 '^error: --.* is given with --.*: must stand without it' replay $rim --
 # A file's name cannot become a line of a program, or of what is printed.
 lines="$folder/$(printf 'x\n#error\n').json"
 cp "$folder/saved.json" "$lines"
-for way in "" "--emit bullet"; do
+for way in "--candidates bullet" "--emit bullet"; do
   # shellcheck disable=SC2086
-  expect 0 . replay "$lines" --candidates bullet $way
+  expect 0 . replay "$lines" $way
   ! grep -q '^#error' <<<"$printed" || failed "a file's name is a line of its own with replay $way"
 done
 
