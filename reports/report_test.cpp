@@ -503,6 +503,22 @@ TEST(Solve, ABadLineIsNamedAndTheRestGoOn) {
   EXPECT_EQ(lines[5]["truth"], lines[0]["truth"]);
 }
 
+TEST(Solve, GivesBackEveryScalarAsAnIdAndRefusesOthers) {
+  bool good = true;
+  json line = json::parse(on_sphere);
+  for (const json& id : {json("c1"), json(7), json(1.5), json(true), json()}) {
+    line["id"] = id;
+    const auto lines = solved(line.dump(), good);
+    EXPECT_TRUE(good) << id;
+    EXPECT_EQ(lines[0].at("id"), id);
+  }
+  line["id"] = {1, 2};
+  const auto lines = solved(line.dump(), good);
+  EXPECT_FALSE(good);
+  EXPECT_EQ(lines[0]["field"], "id");
+  EXPECT_FALSE(lines[0].contains("id"));
+}
+
 TEST(Solve, RefusesWhatOnlyBeginsAsAConfiguration) {
   const std::string twice =
       R"({"a":{"shape":"cylinder","radius":1,"radius":2,"half_length":1},"b":{"shape":"sphere","radius":1}})";

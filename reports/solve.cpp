@@ -89,6 +89,7 @@ namespace {
 
 json solved(const json& line, const SolveOptions& options,
             std::vector<CandidateProcess>& candidates) {
+  if (line.contains("id")) id_of(line);  // has to be one
   const auto [c, swapped] =
       configuration_from_json(line.contains("configuration") ? line["configuration"] : line);
   const Order order = swapped ? Order::swapped : Order::as_ours;
@@ -114,7 +115,9 @@ json error(std::size_t number, const json& line, const InvalidInput& e) {
   constexpr std::size_t max_field = 200;
   json result = {
       {"line", number}, {"field", printable(e.field(), max_field)}, {"error", error_text(e)}};
-  if (line.is_object() && line.contains("id")) result["id"] = line["id"];
+  if (line.contains("id") && line["id"].is_primitive()) {
+    result["id"] = line["id"];
+  }
   return result;
 }
 

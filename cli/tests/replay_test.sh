@@ -50,6 +50,10 @@ also '"id":"one"'
 expect 0 '"radius":2' replay "$folder/lines.jsonl" --id 2 --candidates reference --json
 also '"id":"2"' "replay $folder/lines.jsonl --id 2"
 expect 0 '^// Asked .*lines.jsonl, id 2$' replay "$folder/lines.jsonl" --id 2 --emit bullet
+sed 's/"id":2/"id":null/' "$folder/lines.jsonl" >"$folder/null.jsonl"
+expect 0 '"radius":2' replay "$folder/null.jsonl" --id null --candidates reference --json
+sed 's/"id":2/"id":[2]/' "$folder/lines.jsonl" >"$folder/list.jsonl"
+expect 2 '^error: id is \[2\]: must be a string, a number, true, false or null' replay "$folder/list.jsonl" --id one
 head -n 1 "$folder/lines.jsonl" >"$folder/line.jsonl"
 expect 0 '^one$' replay "$folder/line.jsonl" --candidates reference
 cat "$folder/line.jsonl" "$folder/line.jsonl" >"$folder/twice.jsonl"

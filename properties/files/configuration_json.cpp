@@ -138,11 +138,9 @@ GivenConfiguration configuration_from_json(const json& value) {
 
 namespace {
 
-/// The id that a line gives itself, as text; empty for one without.
-std::string id_of(const json& line) {
-  if (!line.is_object() || !line.contains("id")) return "";
-  const json& id = line["id"];
-  return id.is_string() ? id.get<std::string>() : id.dump();
+/// Empty for a line without an id.
+std::string id_or_none(const json& line) {
+  return line.contains("id") ? id_of(line) : "";
 }
 
 /// "c1, c2 and 7 more"
@@ -150,7 +148,8 @@ std::string ids_of(const std::vector<json>& lines) {
   constexpr std::size_t max_named = 20, max_length = 60;
   std::vector<std::string> ids;
   for (const json& line : lines) {
-    if (const std::string id = id_of(line); !id.empty()) ids.push_back(printable(id, max_length));
+    if (const std::string id = id_or_none(line); !id.empty())
+      ids.push_back(printable(id, max_length));
   }
   const std::size_t unnamed = ids.size() - std::min(ids.size(), max_named);
   ids.resize(ids.size() - unnamed);
@@ -168,7 +167,7 @@ const json& chosen(const std::vector<json>& lines, const std::string& source,
                        fmt::format("must hold one configuration, not {}", lines.size()) +
                            (ids.empty() ? "" : "; touchstone replay takes --id of " + ids));
   }
-  const auto has_id = [&](const json& line) { return id_of(line) == *id; };
+  const auto has_id = [&](const json& line) { return id_or_none(line) == *id; };
   const auto count = std::count_if(lines.begin(), lines.end(), has_id);
   if (count == 1) return *std::find_if(lines.begin(), lines.end(), has_id);
   throw InvalidInput("--id", '"' + *id + '"',
@@ -185,7 +184,7 @@ Subject subject_of(const std::string& text, const std::string& source,
   const bool is_wrapped = line.contains("configuration");
   return {source, "",
           configuration_from_json(is_wrapped ? line["configuration"] : line).configuration,
-          id_of(line)};
+          id_or_none(line)};
 }
 
 }  // namespace

@@ -71,6 +71,11 @@ std::uint64_t whole_number(const nlohmann::json& value, const std::string& field
 
 std::string string(const nlohmann::json& value, const std::string& field);
 
+/// The text of the id that an object gives itself by its member "id", by which it is asked for and
+/// told from others: a string as it is; a number, true, false or null as JSON writes it, so that 0
+/// and "0" are one id.
+std::string id_of(const nlohmann::json& object);
+
 /// The value itself, which is an array.
 const nlohmann::json& array(const nlohmann::json& value, const std::string& field);
 
