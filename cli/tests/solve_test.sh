@@ -8,6 +8,33 @@ expect 2 'could not be opened' solve "$folder/none.jsonl"
 # A list takes one argument: what follows is another.
 echo '{"a":{"shape":"cylinder","radius":1,"half_length":1},"b":{"shape":"sphere","radius":1}}' >"$folder/one.jsonl"
 expect 0 '"reference":{' solve --candidates reference "$folder/one.jsonl"
+# Rows of CSV, and workers, which change nothing.
+expect 0 '^1,,reference,' solve --candidates reference,capsule --csv "$folder/one.jsonl"
+[ "$("$program" solve --candidates reference,capsule --csv --workers 2 "$folder/one.jsonl")" = "$printed" ] ||
+  failed "solve --workers 2 writes something else"
+# Nor where a candidate answers by what it was asked before: sessions begin at the same lines.
+sed 's/^  answer->status = TS_NONE;/  static int asked; answer->status = TS_CONTACT; answer->point_count = 0;\
+  answer->signed_distance = -++asked; if (asked > 0) return;/' \
+  "$source_folder/candidates/example/cylinder_plane.c" >"$folder/counts.c"
+cc -shared -fPIC -I "$(dirname "$program")/include" "$folder/counts.c" -o "$folder/counts.so" -lm
+for _ in {1..600}; do
+  echo '{"a":{"shape":"cylinder","radius":1,"half_length":1},"b":{"shape":"plane","normal":[0,0,1],"displacement":0}}'
+done >"$folder/many.jsonl"
+counted() {
+  "$program" --load "$folder/counts.so" solve --candidates my-engine --csv --workers "$1" "$folder/many.jsonl"
+}
+one=$(counted 1)
+{ grep -q '^256,.*,contact,-256' <<<"$one" && grep -q '^257,.*,contact,-1.0,' <<<"$one"; } || failed "sessions of solve"
+[ "$(counted 3)" = "$one" ] || failed "solve --workers 3 asks in other sessions"
+expect 2 'line 1 is without an end: must have at most' solve --workers 2 --candidates reference /dev/zero
+# A direction or a matrix in place of a quaternion.
+turned='{"a":{"shape":"cylinder","radius":1,"half_length":2},"b":{"shape":"plane","normal":[0,1,0],"displacement":0}'
+echo "$turned,\"pose_a\":{\"axis\":\"y\",\"position\":[0,2,0]}}" >"$folder/axis.jsonl"
+expect 0 'pose a *.*1, -1, 0, 0\|"orientation":\[1.0,-1.0,0.0,0.0\]' replay "$folder/axis.jsonl" --candidates reference --json
+expect 0 '"signed_distance":\["0' solve "$folder/axis.jsonl" --candidates reference
+echo "$turned,\"pose_a\":{\"rotation\":[[1,0,0],[0,1,0],[0,0,2]]}}" >"$folder/no_rotation.jsonl"
+expect 2 'pose_a.rotation is \[\[1, 0, 0\], .*: must be a rotation to 1e-09, but column 3 has length 2' \
+  solve "$folder/no_rotation.jsonl" --candidates reference
 # What turns the direction of what follows it is shown as digits.
 expect 2 'file is ".*none\\u2066": could not be opened' solve "$folder/$(printf 'none\xe2\x81\xa6')"
 sed 's/^{/{"id":"x\\u202e\\u001b",/' "$folder/one.jsonl" >"$folder/turned.jsonl"

@@ -32,7 +32,8 @@ nlohmann::json parse_json(std::string_view text, const std::string& source);
 /// otherwise of the first line ("line 7") that is none.
 std::vector<nlohmann::json> parse_json_lines(const std::string& text, const std::string& source);
 
-/// Lines of JSON that come one by one, of any number; blank ones do not count.
+/// Lines of JSON that come one by one, of any number; blank ones do not count. A copy keeps the
+/// line that it is at.
 class JsonLines {
  public:
   explicit JsonLines(std::istream& in) : in_(in) {}
