@@ -22,8 +22,9 @@ struct CampaignArguments {
                 "one a core or rank") {}
   CampaignOption scored;
   WorkersOption workers;
+  std::vector<std::string> parts;  // to be merged
   std::string out = "out", shard_text;
-  bool resume = false, has_details = false;
+  bool resume = false, partial = false, has_details = false;
   double interval = RunOptions{}.interval;
 
   Campaign campaign() const {
@@ -90,8 +91,9 @@ int run_campaign(const CampaignArguments& options) {
   if (under_mpirun()) {
     if (!gather(state, merge)) return 0;
   } else if (shard.of > 1) {
-    print(fmt::format("Shard {} is done: {}\nWith the others: {} merge FOLDER... --out FOLDER\n",
-                      to_string(shard), place.file().string(), program_name()));
+    print(fmt::format(
+        "Shard {} is done: {}\nWith the others: {} campaign --merge FOLDER... --out FOLDER\n",
+        to_string(shard), place.file().string(), program_name()));
     return 0;
   } else {
     merge.add(state, place.file().string());
@@ -108,48 +110,16 @@ int run_campaign(const CampaignArguments& options) {
   return 0;
 }
 
-}  // namespace
-
-void add_campaign(Program& program) {
-  Command command =
-      program.command("campaign", "Score any number of configurations, on many machines");
-  const auto options = std::make_shared<CampaignArguments>(command);
-  command.text("--out", options->out, "Folder for the checkpoints and campaign.json")
-      .value("FOLDER");
-  command.text("--shard", options->shard_text,
-               "Only this part, as in 3/7; put together by touchstone merge");
-  command.flag("--resume", options->resume,
-               "Go on where the folder's checkpoint ends, or begin where there is none");
-  command.number("--checkpoint", options->interval, {1e-3, 1e9}, "Seconds between checkpoints");
-  command.flag("--details", options->has_details, details_help);
-  command.footer(
-      "Examples:\n"
-      "  touchstone campaign --candidates reference --count 1e6 --out run\n"
-      "  touchstone campaign --candidates reference --count 1e6 --out run --resume\n"
-      "  mpirun -n 64 touchstone campaign --count 1e6 --out run\n"
-      "  touchstone campaign --count 1e6 --shard 3/7 --out run   then merge\n"
-      "Exit codes: 130, 143, 129 when stopped by Ctrl-C, SIGTERM, SIGHUP; what was\n"
-      "done is saved.");
-  command.runs([options] { return run_campaign(*options); });
-}
-
-namespace {
-
-struct MergeOptions {
-  std::vector<std::string> inputs;
-  std::string out = "out";
-  bool partial = false;
-};
-
-int run_merge(const MergeOptions& options) {
-  const ShardState whole = merge({options.inputs.begin(), options.inputs.end()}, options.partial);
+int run_merge(const CampaignArguments& options) {
+  const ShardState whole = merge({options.parts.begin(), options.parts.end()}, options.partial);
   const ShardPlace place(options.out, whole.shard);
   place.begin(whole.plan, false);  // throws where there is a campaign
   write_shard(whole, place.file());
   const Report result = campaign_result(whole);
   const auto file = write_result(whole, options.out);
   const bool complete = result.completed.configurations == result.planned.configurations;
-  print(fmt::format("{}\n{}{}.\nResult: {}\n", terminal_table(result, standard_output()),
+  const auto text = options.has_details ? terminal_details : terminal_table;
+  print(fmt::format("{}\n{}{}.\nResult: {}\n", text(result, standard_output()),
                     counted(result.configurations, "configuration"),
                     complete ? "" : ", which is not all of the campaign", file.string()));
   return 0;
@@ -157,21 +127,40 @@ int run_merge(const MergeOptions& options) {
 
 }  // namespace
 
-void add_merge(Program& program) {
-  Command command = program.command("merge", "Put the parts of a campaign together");
-  const auto options = std::make_shared<MergeOptions>();
-  command.arguments("inputs", options->inputs, "Shard files, or folders that hold some")
-      .value("PATH")
-      .required();
-  command.text("--out", options->out, "Folder for campaign.json and the merged shard file")
+void add_campaign(Program& program) {
+  Command command =
+      program.command("campaign", "Score any number of configurations, on many machines");
+  const auto options = std::make_shared<CampaignArguments>(command);
+  command.text("--out", options->out, "Folder for the shard files and campaign.json")
       .value("FOLDER");
+  command.text("--shard", options->shard_text,
+               "Only this part, as in 3/7; put together by --merge");
+  command.flag("--resume", options->resume,
+               "Go on where the folder's checkpoint ends, or begin where there is none");
+  command.flag("--details", options->has_details, details_help);
+  command.number("--checkpoint", options->interval, {1e-3, 1e9}, "Seconds between checkpoints")
+      .group("");
+  const Option merges =
+      command
+          .arguments("--merge", options->parts,
+                     "Put the parts of a campaign together: shard files, or folders with some")
+          .value("PATH");
   command.flag("--partial", options->partial, "Even if parts are missing");
+  command.mode(merges, {"--partial"}, {"--out", "--details"});
   command.footer(
       "Examples:\n"
-      "  touchstone merge run --out merged\n"
-      "  touchstone merge node-*/shard-*.jsonl --out merged\n"
-      "Parts of different campaigns, parts that overlap and damaged files are refused.");
-  command.runs([options] { return run_merge(*options); });
+      "  touchstone campaign --candidates reference --count 1e6 --out run\n"
+      "  touchstone campaign --candidates reference --count 1e6 --out run --resume\n"
+      "  mpirun -n 64 touchstone campaign --count 1e6 --out run\n"
+      "  touchstone campaign --count 1e6 --shard 3/7 --out run\n"
+      "  touchstone campaign --merge run --out merged\n"
+      "  touchstone campaign --merge node-*/shard-*.bin --out merged\n"
+      "Parts of different campaigns, parts that overlap and damaged files are refused.\n"
+      "Exit codes: 130, 143, 129 when stopped by Ctrl-C, SIGTERM, SIGHUP; what was\n"
+      "done is saved.");
+  command.runs([options, merges] {
+    return merges.is_given() ? run_merge(*options) : run_campaign(*options);
+  });
 }
 
 }  // namespace touchstone

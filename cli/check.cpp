@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <memory>
+#include <optional>
 
 #include <nlohmann/json.hpp>
 
@@ -13,12 +14,14 @@
 #include "properties/laws/failure_file.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/check_output.hpp"
+#include "reports/search.hpp"
 
 namespace touchstone {
 namespace {
 
 /// About as much work: there is one hostile class, and of others some two hundred to a pair.
 constexpr std::uint64_t usual_count_of_class = 20, usual_count_of_hostile = 5000;
+constexpr std::uint64_t usual_evaluations = 10000;
 /// What an engine should hold; few are built for extreme poses.
 constexpr Group usual_groups[] = {Group::everyday, Group::degenerate, Group::recorded};
 
@@ -29,8 +32,8 @@ struct CheckArguments {
   BarOption bar;
   WorkersOption workers;
   std::string candidate;
-  std::vector<std::string> laws;
-  bool hostile = false, json = false;
+  std::vector<std::string> laws, goals;
+  bool hostile = false, json = false, searches = false;
   std::string save, corpus, known, junit;
 
   CheckOptions check() const {
@@ -52,7 +55,34 @@ struct CheckArguments {
     c.by_features = !save.empty() || !known.empty();  // which takes twice as long
     return c;
   }
+
+  Search search() const {
+    Search s;
+    s.pairs = sample.pairs();
+    for (const std::string& name : goals) add_once(s.goals, parse_goal(name));
+    if (goals.empty()) s.goals.assign(usual_goals.begin(), usual_goals.end());
+    s.starts = {sample.classes(), sample.groups()};
+    s.seed = sample.seed();
+    s.budget = sample.count_is_given() ? sample.count() : usual_evaluations;
+    s.bar = bar.get();
+    s.workers = workers.get();
+    return s;
+  }
 };
+
+/// Shows how much of `work` is done, as often as that tells.
+template <class Work>
+auto with_progress(const char* unit, Work work) {
+  std::optional<Progress> progress;
+  return work([&](std::uint64_t done, std::uint64_t all) {
+    if (!progress) progress.emplace(unit, all);
+    progress->update(done);
+  });
+}
+
+[[noreturn]] void refuse_without_routine(const std::string& candidate) {
+  throw InvalidInput("--candidate", candidate, "must have a routine for a pair that is asked");
+}
 
 /// Prints what a person reads, as it comes, unless JSON is asked for.
 struct Teller {
@@ -119,12 +149,8 @@ std::vector<LawResult> check_laws(const Candidate* candidate, const CheckOptions
       "{} {}, seed {}, {} of each pair and pose class{}, tolerance {}",
       shown_name(process.candidate().name), process.candidate().version, checks.seed,
       counted(checks.count, "configuration"), groups_text(checks.groups), checks.bar.tolerance)));
-  std::unique_ptr<Progress> progress;
-  auto results = check(process, checks, [&](std::uint64_t done, std::uint64_t all) {
-    if (!progress) progress = std::make_unique<Progress>("configurations", all);
-    progress->update(done);
-  });
-  progress.reset();
+  auto results = with_progress("configurations",
+                               [&](const auto& tell) { return check(process, checks, tell); });
   if (!known.empty()) {
     const std::size_t all = in_order(results).size();
     results = new_ones(std::move(results), known);
@@ -133,18 +159,38 @@ std::vector<LawResult> check_laws(const Candidate* candidate, const CheckOptions
   }
   teller.tell(check_text(results, terminal));
   if (std::none_of(results.begin(), results.end(), [](auto& r) { return r.tried > 0; })) {
-    throw InvalidInput("--candidate", process.candidate().name,
-                       "must have a routine for a pair that is asked");
+    refuse_without_routine(process.candidate().name);
   }
   return results;
+}
+
+int run_search(const CheckArguments& options) {
+  if (!options.save.empty()) check_writable(options.save, "--save");
+  const Search wanted = options.search();
+  const Candidate& candidate = named_candidate(options.candidate);
+  const SearchResult result = with_progress(
+      "evaluations", [&](const auto& tell) { return search(candidate, wanted, tell); });
+  if (result.goals.empty()) refuse_without_routine(candidate.name);
+  std::string saved;
+  const auto write = [&] {
+    if (options.save.empty()) return;
+    for (const Failure& f : result.failures) {
+      saved += "saved " + save(f, options.save).string() + '\n';
+    }
+  };
+  write_then_print(write, options.json ? to_json(result).dump(1) + '\n'
+                                       : search_text(result, candidate.name, standard_output()));
+  if (!options.json) print(saved);
+  return result.failures.empty() ? 0 : something_failed;
 }
 
 int run_check(const CheckArguments& options) {
   if (options.candidate.empty() && options.corpus.empty() && options.known.empty()) {
     throw InvalidInput("--candidate", "missing",
-                       "must be given: a name, as bullet (touchstone candidates lists them), or "
-                       "the file of a plug-in; or else --corpus or --known with saved failures");
+                       "must be given: a name, as bullet (touchstone list candidates shows them), "
+                       "or the file of a plug-in; or else --corpus or --known with saved failures");
   }
+  if (options.searches) return run_search(options);
   if (!options.junit.empty()) check_file_writable(options.junit, "--junit");
   if (!options.save.empty()) check_writable(options.save, "--save");
   const CheckOptions checks = options.check();
@@ -167,10 +213,20 @@ std::string law_list() {
   return text;
 }
 
+std::string goal_list() {
+  return "Goals of --search, each what is made as large as can be:\n" +
+         list_entry("distance", 11, "the error of the signed distance") +
+         list_entry("normal", 11, "the normal regret") +
+         list_entry("points", 11, "the error of the deepest point's depth") +
+         list_entry("hull", 11,
+                    "how far the hull of the points moves at a step that cannot be seen") +
+         list_entry("time", 11, "what a query takes; only where it is named");
+}
+
 }  // namespace
 
 void add_check(Program& program) {
-  Command command = program.command("check", "Hold one candidate to the laws of contacts");
+  Command command = program.command("check", "Hold one candidate to laws; climb to its worst");
   const auto options = std::make_shared<CheckArguments>(command);
   command.text("--candidate", options->candidate, "Its name, or a plug-in's file")
       .value("CANDIDATE");
@@ -179,6 +235,7 @@ void add_check(Program& program) {
             fmt::format("On the pose class hostile alone, {} configurations of each pair unless "
                         "--count says otherwise",
                         usual_count_of_hostile))
+      .group("")
       .excludes(options->sample.class_option())
       .excludes(options->sample.group_option());
   command.list("--law", options->laws, "Only these laws").value("LAW");
@@ -195,15 +252,27 @@ void add_check(Program& program) {
       .value("FOLDER");
   command.text("--junit", options->junit, "Write the result as JUnit XML").value("FILE");
   command.flag("--json", options->json, "Print one JSON object instead of text");
+  const Option search = command.flag(
+      "--search", options->searches,
+      fmt::format("Climb to its worst configurations instead, with {} evaluations for each pair "
+                  "and goal unless --count says otherwise",
+                  usual_evaluations));
+  command.list("--goal", options->goals, "Only these goals (default: distance,normal,points,hull)")
+      .value("GOAL");
+  command.mode(search, {"--goal"},
+               {"--candidate", "--save", "--json", "--pair", "--class", "--group", "--count",
+                "--seed", "--tolerance", "--threshold", "--workers"});
   command.footer(
       "Examples:\n"
       "  touchstone check --candidate bullet\n"
       "  touchstone check --candidate ./my_engine.so --save failures\n"
-      "  touchstone check --candidate ./my_engine.so --hostile\n"
       "  touchstone check --candidate ./my_engine.so --known failures\n"
       "  touchstone check --corpus failures\n"
-      "Without --group, --class and --hostile it draws everyday, degenerate and recorded poses.\n" +
-      law_list() +
+      "  touchstone check --search --candidate bullet --pair cylinder-box\n"
+      "  touchstone check --search --candidate reference --tolerance 1e-13 --count 1e6\n"
+      "Without --group and --class it draws everyday, degenerate and recorded poses; a search\n"
+      "starts from all.\n" +
+      law_list() + goal_list() +
       "Exit code 1: a law was broken, or a saved failure has changed; with --known: a\n"
       "law was broken in a new way, or a known failure has changed or cannot be asked.");
   command.runs([options] { return run_check(*options); });

@@ -61,7 +61,9 @@ class HelpFormat : public CLI::Formatter {
   }
   std::string make_option_desc(const CLI::Option* option) const override {
     std::set<std::string> excluded;
-    for (const CLI::Option* other : option->get_excludes()) excluded.insert(other->get_name());
+    for (const CLI::Option* other : option->get_excludes()) {
+      if (!other->get_group().empty()) excluded.insert(other->get_name());  // none that is hidden
+    }
     std::string text = CLI::Formatter::make_option_desc(option);
     if (!excluded.empty()) text += fmt::format("; not with {}", fmt::join(excluded, ", "));
     // CLI11 indents what follows a line's end.
@@ -74,14 +76,33 @@ class HelpFormat : public CLI::Formatter {
 
 using Names = std::vector<std::string>;
 
+/// "--count"; CLI11 has none for an option that it hides.
+std::string name_of(const CLI::Option& option) {
+  return option.get_lnames().empty() ? option.get_name() : "--" + option.get_lnames().front();
+}
+
+/// Subcommands of version 0.1.0 that are parts of others now.
+constexpr std::pair<std::string_view, std::string_view> renamed[] = {
+    {"candidates", "list candidates"}, {"certify", "replay --certify"},
+    {"classes", "list classes"},       {"merge", "campaign --merge"},
+    {"render", "simulate --povray"},   {"search", "check --search"}};
+
+InvalidInput unknown_command(const CLI::App& program, const std::string& word) {
+  std::string remedy = fmt::format("must be one of {}; {} --help says what they do",
+                                   fmt::join(command_names(program), ", "), program.get_name());
+  for (const auto& [old, now] : renamed) {
+    if (word == old) remedy = fmt::format("{} is now `{} {}`", old, program.get_name(), now);
+  }
+  return {"subcommand", in_quotes(word), remedy};
+}
+
 /// CLI11 would only say that a subcommand is required.
 void refuse_unknown_command(const CLI::App& program, int argc, char** argv) {
   if (argc < 2 || argv[1][0] == '-') return;
   const Names names = command_names(program);
-  if (std::find(names.begin(), names.end(), argv[1]) != names.end()) return;
-  throw InvalidInput("subcommand", in_quotes(argv[1]),
-                     fmt::format("must be one of {}; {} --help says what they do",
-                                 fmt::join(names, ", "), program.get_name()));
+  if (std::find(names.begin(), names.end(), argv[1]) == names.end()) {
+    throw unknown_command(program, argv[1]);
+  }
 }
 
 /// What CLI11 met on the command line, as an error of ours: its own words name neither what was
@@ -100,6 +121,7 @@ class UsageError {
                                      [](const std::string& word) { return word.starts_with('-'); });
     // What is missing may be what an unknown option has swallowed.
     if (option != rest.end()) return unknown_option(*option);
+    if (!rest.empty() && command_ == &program_) return unknown_command(program_, rest.front());
     if (!rest.empty()) return not_expected(rest.front());
     if (dynamic_cast<const CLI::RequiredError*>(&error)) return missing();
     if (dynamic_cast<const CLI::ExcludesError*>(&error)) return excluded();
@@ -153,7 +175,7 @@ class UsageError {
       if (option->count() == 0) continue;
       for (const CLI::Option* other : option->get_excludes()) {
         if (other->count() == 0) continue;
-        return {option->get_name(), "given with " + other->get_name(), "must stand without it"};
+        return {name_of(*option), "given with " + name_of(*other), "must stand without it"};
       }
     }
     return {"command line", "contradictory", name_ + " --help says what goes together"};
@@ -166,7 +188,7 @@ class UsageError {
     const std::string word = text.substr(0, text.find_first_of(": "));
     const std::string name = word.starts_with('-') ? word : "--" + word;
     for (const CLI::Option* option : options_of(*command_)) {
-      if (option->get_name() != name) continue;
+      if (name_of(*option) != name) continue;
       if (option->get_items_expected_max() == 0) {
         return {name, "given a value", "must stand alone"};
       }
@@ -224,7 +246,7 @@ Option& Option::default_text(const std::string& text) {
   option_->default_str(text);
   return *this;
 }
-std::string Option::name() const { return option_->get_name(); }
+std::string Option::name() const { return name_of(*option_); }
 bool Option::is_given() const { return option_->count() > 0; }
 
 Option Command::text(const std::string& name, std::string& variable,
@@ -286,10 +308,43 @@ Option Command::numbers(const std::string& name, std::vector<double>& variable, 
                     ->allow_extra_args(false));
 }
 
+void Command::mode(const Option& option, const Names& own, const Names& common) {
+  for (const std::string& name : own) {
+    CLI::Option* const each = app_->get_option(name);
+    if (!each->get_group().empty()) each->group("With " + option.name());
+  }
+  modes_.push_back({option.option_, own, common});
+}
+
+void Command::refuse_what_has_no_effect(const CLI::App& command, const std::vector<Mode>& modes) {
+  const auto has = [](const Names& names, const CLI::Option* option) {
+    return std::find(names.begin(), names.end(), name_of(*option)) != names.end();
+  };
+  for (const CLI::Option* option : command.get_options()) {
+    if (option->count() == 0 || option->get_positional()) continue;
+    Names owners;
+    bool is_owned = false;
+    for (const Mode& mode : modes) {
+      const bool is_own = has(mode.own, option), is_on = mode.option->count() > 0;
+      if (is_own) owners.push_back(name_of(*mode.option));
+      is_owned = is_owned || (is_own && is_on);
+      if (is_own || !is_on || option == mode.option || has(mode.common, option)) continue;
+      throw InvalidInput(name_of(*option), "given with " + name_of(*mode.option),
+                         "must stand without it");
+    }
+    if (owners.empty() || is_owned) continue;
+    throw InvalidInput(name_of(*option), "given",
+                       fmt::format("must stand beside {}", fmt::join(owners, " or ")));
+  }
+}
+
 void Command::footer(const std::string& text) { app_->footer(text); }
 
 void Command::runs(std::function<int()> action) {
-  app_->callback([action = std::move(action), code = exit_code_] { *code = action(); });
+  app_->callback([action = std::move(action), code = exit_code_, app = app_, modes = modes_] {
+    refuse_what_has_no_effect(*app, modes);
+    *code = action();
+  });
 }
 
 Program::Program(const std::string& name, const std::string& description)

@@ -27,7 +27,8 @@ class Option {
  public:
   Option& required();
   Option& excludes(const Option& other);
-  /// Puts it under a heading of its own in --help.
+  /// Puts it under a heading of its own in --help; without one --help does not show it, because
+  /// only developers use it.
   Option& group(const std::string& heading);
   /// What its value is called in --help, "PAIR"; completion offers what descriptions.cpp knows of
   /// that name, and files otherwise.
@@ -64,16 +65,28 @@ class Command {
   /// Numbers separated by commas; the description says what they are by default.
   Option numbers(const std::string& name, std::vector<double>& variable, NumberRange range,
                  const std::string& description);
+  /// An option that makes the command do something else. `own` options have a meaning beside it
+  /// alone and stand under its heading in --help; of the others, `common` may stand beside it, as
+  /// arguments by position may. Whatever would have no effect is refused.
+  void mode(const Option& option, const std::vector<std::string>& own,
+            const std::vector<std::string>& common);
   /// Examples and remarks, after the options in --help.
   void footer(const std::string& text);
-  /// What the command does; the value is the program's exit code.
+  /// What the command does, after its modes are known; the value is the program's exit code.
   void runs(std::function<int()> action);
 
  private:
   friend class Program;
   Command(CLI::App* app, int* exit_code) : app_(app), exit_code_(exit_code) {}
+  struct Mode {
+    const CLI::Option* option;
+    std::vector<std::string> own, common;
+  };
+  static void refuse_what_has_no_effect(const CLI::App& command, const std::vector<Mode>& modes);
+
   CLI::App* app_;
   int* exit_code_;
+  std::vector<Mode> modes_;
 };
 
 class Program {
@@ -111,26 +124,21 @@ std::string list_entry(const std::string& name, std::size_t width, const std::st
 void add_report(Program& program);
 void add_replay(Program& program);
 void add_solve(Program& program);
-void add_certify(Program& program);
 void add_check(Program& program);
 void add_export(Program& program);
 void add_score(Program& program);
 void add_compare(Program& program);
 void add_campaign(Program& program);
-void add_merge(Program& program);
 void add_simulate(Program& program);
 void add_choose(Program& program);
-void add_search(Program& program);
-void add_render(Program& program);
 void add_stability(Program& program);
-void add_candidates(Program& program);
-void add_classes(Program& program);
+void add_list(Program& program);
 
 // The program's own description of its commands, in other forms than --help
 // (descriptions.cpp).
 
 std::vector<std::string> command_names(const CLI::App& program);
-/// Those that may stand after this subcommand, the program's own included.
+/// Those that may stand after this subcommand, the program's own and hidden ones included.
 std::vector<const CLI::Option*> options_of(const CLI::App& command);
 
 /// The manual page, in troff with the man macros, as UTF-8.
@@ -150,9 +158,9 @@ void open_closed_streams();
 /// Empties the buffers of standard output: was everything printed there really written? If not,
 /// says why on standard error.
 ///
-/// A pipe whose reader has ended (`touchstone candidates | head -n 1`) ends the program at the next
-/// write by SIGPIPE, quietly, as it does other programs (status 141 of a shell); where a parent has
-/// ignored SIGPIPE, it is an output that cannot be written.
+/// A pipe whose reader has ended (`touchstone list candidates | head -n 1`) ends the program at the
+/// next write by SIGPIPE, quietly, as it does other programs (status 141 of a shell); where a
+/// parent has ignored SIGPIPE, it is an output that cannot be written.
 bool standard_output_is_written();
 
 /// Runs `write`, which writes what was found into files, and prints it. Where it cannot be written

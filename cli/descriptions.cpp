@@ -51,6 +51,7 @@ std::string described(const CLI::Option& option) {
 std::string options(const CLI::App& app) {
   std::string text;
   for (const CLI::Option* option : app.get_options()) {
+    if (option->get_group().empty()) continue;  // hidden
     text += fmt::format(".TP\n{}\n{}\n", label(*option), described(*option));
   }
   return text;
@@ -64,10 +65,12 @@ std::string footer(const CLI::App& app) {
 
 // Completion.
 
-/// Of a subcommand and of the program itself, whose options may stand after it too.
+/// Of a subcommand and of the program itself, whose options may stand after it too; not those that
+/// --help hides.
 std::vector<const CLI::Option*> named_options(const CLI::App& app) {
   std::vector<const CLI::Option*> options = options_of(app);
-  std::erase_if(options, [](const CLI::Option* o) { return !o->nonpositional(); });
+  std::erase_if(options,
+                [](const CLI::Option* o) { return !o->nonpositional() || o->get_group().empty(); });
   return options;
 }
 
@@ -103,6 +106,7 @@ Words words_for(const std::string& value) {
   if (value == "FAILURE") return {"accuracy", "time"};
   if (value == "FORMAT") return {"jsonl", "csv", "npz"};
   if (value == "SHELL") return {"bash", "zsh"};
+  if (value == "LIST") return {"candidates", "classes"};
   if (value == "PAIR") {
     for (const Pair pair : all_pairs) words.insert(pair_name(pair));
   } else if (value == "LAW") {
@@ -247,7 +251,9 @@ std::string zsh_completion(const CLI::App& program) {
         fmt::format("    '{}:{}'\n", command->get_name(), zsh_quoted(command->get_description()));
     std::string positional = ":file:_files";
     for (const CLI::Option* option : command->get_options()) {
-      if (option->get_positional()) positional = zsh_value(option->get_type_name());
+      if (!option->get_positional()) continue;
+      positional = zsh_value(option->get_type_name());
+      break;
     }
     cases += fmt::format("    {}) _arguments{} \\\n      '*{}' ;;\n", command->get_name(),
                          zsh_options(*command), positional);

@@ -15,7 +15,8 @@ PATIENCE = 1200  # seconds: ends a hang, on a machine however slow and busy
 
 def listed_classes(program):
     """The number of pose classes of a report, by the list of pose classes."""
-    text = subprocess.run([program, "classes"], check=True, capture_output=True, text=True).stdout
+    text = subprocess.run([program, "list", "classes"], check=True, capture_output=True,
+                          text=True).stdout
     return sum(int(n) for n in re.findall(r"A report scores (\d+) classes", text))
 
 

@@ -41,42 +41,26 @@ void print_candidate(const Candidate& c) {
 
 void print_heading(const std::string& text) { print(standard_output().folded(text)); }
 
-}  // namespace
-
-void add_candidates(Program& program) {
-  Command command = program.command("candidates", "List the contact routines there are");
-  command.footer(
-      "Examples:\n"
-      "  touchstone candidates\n"
-      "  touchstone --load ./my_engine.so candidates\n"
-      "  touchstone report --candidates reference,bullet,prism:8,16\n"
-      "A family with a parameter is named with its number, as prism:16; what is skipped\n"
-      "or unavailable says why.");
-  command.runs([] {
-    const std::vector<const Candidate*> usual = default_candidates();
-    for (const Candidate* c : usual) print_candidate(*c);
-    for (const Skipped& s : skipped_plugins()) print_heading(s.name + ": skipped; " + s.reason);
-    print_heading("Variants of these, when one is named or with --all-candidates:");
-    for (const Candidate* c : all_candidates()) {
-      if (std::ranges::find(usual, c) == usual.end()) print_candidate(*c);
-    }
-    print_heading(
-        "In single precision, or with Touchstone's contacts installed, when one is named:");
-    for (const std::string& name : named_candidates()) print_below(name);
-    const std::vector<std::string> peers = peer_engines();
-    if (!peers.empty()) print_heading("Of engines outside Debian, when one is named:");
-    for (const std::string& name : peers) print_below(name);
-    print_heading("From npm, when one is named:");
-    for (const NpmEngine& engine : npm_engines()) {
-      const std::string obstacle = npm_obstacle(engine);
-      print_below(std::string(engine.family) +
-                  (obstacle.empty() ? "" : ": unavailable; " + obstacle));
-    }
-    return 0;
-  });
+void list_candidates() {
+  const std::vector<const Candidate*> usual = default_candidates();
+  for (const Candidate* c : usual) print_candidate(*c);
+  for (const Skipped& s : skipped_plugins()) print_heading(s.name + ": skipped; " + s.reason);
+  print_heading("Variants of these, when one is named or with --all-candidates:");
+  for (const Candidate* c : all_candidates()) {
+    if (std::ranges::find(usual, c) == usual.end()) print_candidate(*c);
+  }
+  print_heading("In single precision, or with Touchstone's contacts installed, when one is named:");
+  for (const std::string& name : named_candidates()) print_below(name);
+  const std::vector<std::string> peers = peer_engines();
+  if (!peers.empty()) print_heading("Of engines outside Debian, when one is named:");
+  for (const std::string& name : peers) print_below(name);
+  print_heading("From npm, when one is named:");
+  for (const NpmEngine& engine : npm_engines()) {
+    const std::string obstacle = npm_obstacle(engine);
+    print_below(std::string(engine.family) +
+                (obstacle.empty() ? "" : ": unavailable; " + obstacle));
+  }
 }
-
-namespace {
 
 constexpr std::size_t name_column = 24;
 
@@ -123,7 +107,7 @@ std::string group_list() {
                     "As it occurred in the scenes that come with Touchstone.");
 }
 
-int list_classes(const std::string& pair) {
+void list_classes(const std::string& pair) {
   std::vector<Pair> pairs(std::begin(all_pairs), std::end(all_pairs));
   if (!pair.empty()) pairs = {parse_pair(pair, "pair")};
   for (const Pair each : pairs) print(fmt::format("{}\n", arrangement_list(each)));
@@ -134,21 +118,45 @@ int list_classes(const std::string& pair) {
                               pose_classes(each).size(), pair_name(each),
                               pose_classes(each, Coverage::triples).size()));
   }
+}
+
+struct ListArguments {
+  std::string what, pair;
+};
+
+int run_list(const ListArguments& options) {
+  if (options.what == "classes") {
+    list_classes(options.pair);
+  } else if (options.what != "candidates") {
+    throw InvalidInput("what", in_quotes(options.what), "must be candidates or classes");
+  } else if (!options.pair.empty()) {
+    throw InvalidInput("pair", in_quotes(options.pair),
+                       "must be left out: candidates are listed with their pairs");
+  } else {
+    list_candidates();
+  }
   return 0;
 }
 
 }  // namespace
 
-void add_classes(Program& program) {
-  Command command = program.command("classes", "List the pose classes: arrangements and modifiers");
-  const auto pair = std::make_shared<std::string>();
-  command.text("pair", *pair, "Only of this pair, as cylinder-box").value("PAIR");
+void add_list(Program& program) {
+  Command command = program.command("list", "List the contact routines, or the pose classes");
+  const auto options = std::make_shared<ListArguments>();
+  command.text("what", options->what, "candidates, or classes: arrangements and modifiers")
+      .value("LIST")
+      .required();
+  command.text("pair", options->pair, "Classes of this pair alone, as cylinder-box").value("PAIR");
   command.footer(
       "Examples:\n"
-      "  touchstone classes\n"
-      "  touchstone classes cylinder-box\n"
-      "  touchstone report --class side-on-face,side-on-face+turned --pair cylinder-box");
-  command.runs([pair] { return list_classes(*pair); });
+      "  touchstone list candidates\n"
+      "  touchstone --load ./my_engine.so list candidates\n"
+      "  touchstone report --candidates reference,bullet,prism:8,16\n"
+      "  touchstone list classes cylinder-box\n"
+      "  touchstone report --class side-on-face,side-on-face+turned --pair cylinder-box\n"
+      "A family with a parameter is named with its number, as prism:16; what is skipped\n"
+      "or unavailable says why.");
+  command.runs([options] { return run_list(*options); });
 }
 
 }  // namespace touchstone

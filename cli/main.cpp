@@ -49,13 +49,13 @@ int run_program(int argc, char** argv) {
       "  touchstone report                               the report: out/report.html\n"
       "  touchstone replay cylinder-box/rim-face/1/0     one configuration again\n"
       "  touchstone solve poses.jsonl                    your own configurations\n"
-      "  touchstone certify cylinder-box/rim-face/1/17   a proof that others can check\n"
       "  touchstone check --candidate bullet             laws, smallest failures\n"
       "  touchstone campaign --count 1e6 --out run       any number, on many machines\n"
       "  touchstone simulate rolling                     contacts against paper\n"
       "  touchstone choose scene.json                    the cheapest model that serves\n"
       "  touchstone stability                            tiny steps, slow motions\n"
       "  touchstone compare old.json out/report.json     better, worse, slower\n"
+      "  touchstone list candidates                      engines, models, our routines\n"
       "In a clone, ./touchstone test builds and runs all tests, and ./touchstone python\n"
       "starts Python with the module touchstone.\n"
       "docs/, oracle/ and simulation/scenes/ are folders of a clone; what is installed of them "
@@ -79,20 +79,15 @@ int run_program(int argc, char** argv) {
   add_report(program);
   add_replay(program);
   add_solve(program);
-  add_certify(program);
   add_check(program);
   add_compare(program);
   add_campaign(program);
-  add_merge(program);
   add_simulate(program);
   add_choose(program);
   add_export(program);
   add_score(program);
-  add_search(program);
-  add_render(program);
   add_stability(program);
-  add_candidates(program);
-  add_classes(program);
+  add_list(program);
   try {
     return program.run(argc, argv);
   } catch (const InvalidInput& e) {

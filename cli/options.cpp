@@ -28,8 +28,10 @@ CandidateOption::CandidateOption(Command& command, bool has_default)
   constexpr NumberRange seconds{1e-3, 1e6}, mebibytes{1, 1e9};
   command.number("--time-limit", limits_.seconds, seconds,
                  "Processor time that a candidate may take for one configuration, seconds");
-  command.number("--memory-limit", limits_.mebibytes, mebibytes,
-                 "What a candidate's memory may grow by, mebibytes");
+  command
+      .number("--memory-limit", limits_.mebibytes, mebibytes,
+              "What a candidate's memory may grow by, mebibytes")
+      .group("");
 }
 
 std::vector<const Candidate*> CandidateOption::get() const {
@@ -38,8 +40,8 @@ std::vector<const Candidate*> CandidateOption::get() const {
                                            : find_candidates(names_);
   if (candidates.empty()) {
     throw InvalidInput("--candidates", "empty",
-                       "no plug-ins are where the program looks for them; touchstone candidates "
-                       "says why");
+                       "no plug-ins are where the program looks for them; touchstone list "
+                       "candidates says why");
   }
   return candidates;
 }
@@ -73,7 +75,7 @@ const Candidate& named_candidate(const std::string& name) {
     if (name.ends_with(".so") || name.find('/') != std::string::npos) {
       throw InvalidInput(
           "--candidate", '"' + name + '"',
-          "must be a file that is there, or a name that touchstone candidates lists");
+          "must be a file that is there, or a name that touchstone list candidates shows");
     }
     if (name.find(',') != std::string::npos) {
       throw InvalidInput("--candidate", '"' + name + '"', "must be one name, not a list");
@@ -94,17 +96,16 @@ std::string BarOption::command_line() const {
   return fmt::format(" --tolerance {} --threshold {}", bar_.tolerance, bar_.threshold);
 }
 
-SampleOption::SampleOption(Command& command, std::uint64_t count, std::uint64_t max_count,
-                           const std::string& counted)
+SampleOption::SampleOption(Command& command, std::uint64_t count, std::uint64_t max_count)
     : count_(count),
       pair_option_(
           command.list("--pair", pairs_, "Only these pairs, as in cylinder-box").value("PAIR")),
       class_option_(
-          command
-              .list("--class", classes_, "Only these pose classes; touchstone classes lists them")
+          command.list("--class", classes_, "Only these pose classes; see touchstone list classes")
               .value("CLASS")),
       count_option_(
-          command.count("--count", count_, {1, max_count}, counted + "; 1e6 is understood too")),
+          command.count("--count", count_, {1, max_count},
+                        "Configurations of each pair and pose class; 1e6 is understood too")),
       group_option_(command
                         .list("--group", groups_,
                               "Only everyday, degenerate, extreme or recorded pose classes")

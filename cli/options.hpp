@@ -64,9 +64,8 @@ struct BarOption {
 
 /// --pair, --class, --group, --count, --seed: which sampled configurations a command is about.
 struct SampleOption {
-  /// `count`: of each pair and pose class, or of what `counted` says, by default, and at most.
-  SampleOption(Command& command, std::uint64_t count, std::uint64_t max_count,
-               const std::string& counted = "Configurations of each pair and pose class");
+  /// `count`: of each pair and pose class, by default, and at most.
+  SampleOption(Command& command, std::uint64_t count, std::uint64_t max_count);
   /// Each once, in the order given; all of them by default. Throws InvalidInput on an unknown name.
   std::vector<Pair> pairs() const;
   /// As given; empty means all. Throws InvalidInput on a class that none of the pairs has.

@@ -6,9 +6,10 @@
 
 #include "cli/command.hpp"
 #include "cli/options.hpp"
+#include "oracle/audit/certificate.hpp"
 #include "properties/files/configuration_json.hpp"
 #include "properties/files/disk.hpp"
-#include "reference/invalid_input.hpp"
+#include "reports/solve.hpp"
 
 namespace touchstone {
 namespace {
@@ -18,17 +19,23 @@ struct ReplayArguments {
   CandidateOption candidates;
   BarOption bar;
   std::string input, id, engine, language;
-  bool json = false;
+  bool json = false, certifies = false;
   std::string html;
+  double width = 1e-30;
+  std::uint64_t cells = 4000;
 };
 
 int run_replay(const ReplayArguments& options, bool emits) {
-  if (!emits && !options.language.empty()) {
-    throw InvalidInput("--language", options.language, "must stand beside --emit");
-  }
   const Bar bar = options.bar.get();
   const Subject given = given_configuration(
       options.input, options.id.empty() ? std::nullopt : std::optional(options.id));
+  if (options.certifies) {
+    const Configuration& c = given.configuration;
+    const audit::Certificate certificate =
+        audit::certify(c, {options.width, static_cast<int>(options.cells)});
+    print(certificate_json(certificate, c) + '\n');
+    return 0;
+  }
   if (emits) {
     const std::string asked = given.name + (given.id.empty() ? "" : ", id " + given.id);
     print(reproducer(options.engine, options.language, given.configuration, asked, bar,
@@ -56,8 +63,8 @@ void add_replay(Program& program) {
   command.text("input", options->input, given_help).value("IDENTITY").required();
   command.text("--id", options->id, "The configuration of this id, of a file with several lines")
       .value("ID");
-  const Option json = command.flag("--json", options->json, "Print one JSON object");
-  Option emit =
+  command.flag("--json", options->json, "Print one JSON object");
+  const Option emit =
       command
           .text("--emit", options->engine,
                 fmt::format("Write a program that asks this engine alone: {}; or a candidate's "
@@ -68,11 +75,22 @@ void add_replay(Program& program) {
       .text("--language", options->language,
             "Language of that program, where there are several: c++, javascript, python")
       .value("LANGUAGE");
-  const Option html = command
-                          .text("--html", options->html,
-                                "Write a page too: both bodies in 3-D, a slice, and all numbers")
-                          .value("FILE");
-  emit.excludes(json).excludes(html);
+  command
+      .text("--html", options->html,
+            "Write a page too: both bodies in 3-D, a slice, and all numbers")
+      .value("FILE");
+  const Option certify =
+      command.flag("--certify", options->certifies,
+                   "Print a proof of the signed distance, a file that others can check");
+  command.number("--width", options->width, {1e-60, 1e30},
+                 "Width to prove, relative to the larger size; down to 1e-60");
+  command
+      .count("--cells", options->cells, {0, 1000000},
+             "End at so many cells of directions, with the width reached by then")
+      .group("");
+  command.mode(emit, {"--language"},
+               {"--id", "--tolerance", "--threshold", "--time-limit", "--memory-limit"});
+  command.mode(certify, {"--width", "--cells"}, {"--id"});
   command.footer(
       "Examples:\n"
       "  touchstone replay cylinder-box/parallel+tilted-1e-6/42/137\n"
@@ -81,7 +99,9 @@ void add_replay(Program& program) {
       "  touchstone replay cylinder-box/rim-face/1/0 --emit jolt > reproducer.mjs\n"
       "  touchstone replay cylinder-box/rim-face/1/0 --html page.html\n"
       "  touchstone replay poses.jsonl --id c1\n"
-      "  touchstone replay failures/ode-cylinder-box-agreement-missed.json --emit ode");
+      "  touchstone replay failures/ode-cylinder-box-agreement-missed.json --emit ode\n"
+      "  touchstone replay cylinder-box/rim-face/1/0 --certify > proof.json\n"
+      "  python3 oracle/check_certificate.py proof.json");
   command.runs([options, emit] { return run_replay(*options, emit.is_given()); });
 }
 

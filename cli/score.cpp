@@ -124,14 +124,14 @@ void add_score(Program& program) {
       .value("FILE");
   command.flag("--suite", options->suite, "All of touchstone-suite-1 has to be answered");
   command.text("--name", options->name, "Whose answers these are, unless the first line says it");
-  command.text("--of-version", options->version, "Its version");
+  command.text("--of-version", options->version, "Its version").group("");
   command.text("--settings", options->settings, "How it was called");
   command.text("--out", options->out, "Folder for report.json and report.html").value("FOLDER");
   command.flag("--details", options->has_details, details_help);
   command.footer(
       "Examples:\n"
       "  touchstone score answers.jsonl\n"
-      "  touchstone score answers.jsonl --suite --name my-gpu --of-version 3\n"
+      "  touchstone score answers.jsonl --suite --name my-gpu\n"
       "  touchstone score answers.jsonl --configurations poses.jsonl --name mine\n"
       "An answer: {\"id\": \"cylinder-box/rim-face/1/0\", \"status\": \"contact\",\n"
       "\"signed_distance\": -0.1, \"normal\": [0, 0, 1],\n"

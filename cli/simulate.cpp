@@ -26,41 +26,32 @@
 namespace touchstone {
 namespace {
 
-/// --disturbance, with the --seed of the command: the scene as `choose` disturbs it.
-struct DisturbanceOption {
-  explicit DisturbanceOption(Command& command)
-      : option(command.count("--disturbance", number, {0, 5000},
-                             "The scene under this one of choose's disturbances, of --seed; 0: as "
-                             "it is written")) {}
-
-  /// A run of the scene, as seen in the scene as it is written: `run` makes it.
-  Trajectory run_of(const Scene& scene, std::uint64_t seed,
-                    const std::function<Trajectory(const DisturbedScene&)>& run) const {
-    const DisturbedScene disturbed(scene, seed, number);
-    return number == 0 ? run(disturbed) : disturbed.turned_back(run(disturbed));
-  }
-
-  std::uint64_t number = 0;
-  Option option;
-};
-
 const std::vector<double> default_steps = {1.0 / 60, 1.0 / 240, 1.0 / 960};
 
 struct SimulateArguments {
   explicit SimulateArguments(Command& command)
-      : candidates(command), workers(command), robot(command), disturbance(command) {}
+      : candidates(command), workers(command), robot(command) {}
   CandidateOption candidates;
   WorkersOption workers;
   RobotOption robot;
-  DisturbanceOption disturbance;
   std::vector<std::string> names;
   std::vector<double> steps = default_steps;
   std::vector<std::string> engines;
-  std::string out, record;
+  std::string out, record, povray;
   std::vector<Option> of_files, of_experiments;  // that have no meaning for the other
-  std::optional<Option> count, seed;
   RecordingOptions recording;
+  std::uint64_t disturbance = 0;
+  std::vector<std::string> contacts = {"reference"};
+  double every = 0.04;
   bool json = false;
+
+  /// A run of the scene as `choose` disturbs it, as seen in the scene as it is written: `run` makes
+  /// it.
+  Trajectory run_of(const Scene& scene,
+                    const std::function<Trajectory(const DisturbedScene&)>& run) const {
+    const DisturbedScene disturbed(scene, recording.seed, disturbance);
+    return disturbance == 0 ? run(disturbed) : disturbed.turned_back(run(disturbed));
+  }
 
   /// Those named. Throws InvalidInput.
   std::vector<const Experiment*> named_experiments() const {
@@ -96,10 +87,6 @@ struct SimulateArguments {
     e.experiments = named_experiments();
     if (names.empty()) e.experiments = engine_experiments();
     for (const auto& engine : engines) add_once(e.engines, engine);
-    if (candidates.is_given()) {
-      throw InvalidInput("--engine", fmt::format("{}", fmt::join(engines, ",")),
-                         "leaves no choice of --candidates: each has its own contacts and ours");
-    }
     if (steps != default_steps && steps.size() > 1) {
       throw InvalidInput("--step", fmt::format("{}", fmt::join(steps, ",")),
                          "must be one number with --engine");
@@ -143,6 +130,25 @@ int record(const SimulateArguments& options) {
   return 0;
 }
 
+/// Runs a scene and writes it for POV-Ray.
+int write_frames(const SimulateArguments& options) {
+  if (options.names.size() != 1) {
+    throw InvalidInput("--povray", '"' + options.povray + '"',
+                       "must be with one scene file, as simulation/scenes/thesis-knock.json");
+  }
+  const SceneFile file = options.robot.scene(options.names.front());
+  const NamedContacts contacts = read_contacts(options.contacts, file.scene);
+  const OutputFolder out(options.povray, "--povray");
+  Processes processes(options.candidates.limits());
+  const Trajectory run = options.run_of(file.scene, [&](const DisturbedScene& scene) {
+    return run_with(scene, contacts, *exact_first({}).front(), processes);
+  });
+  const int frames = write_povray(file, run, options.every, options.povray);
+  print(fmt::format("{}. To draw with Debian's povray:\n  cd {} && povray scene.ini\n",
+                    counted(frames, "frame"), shell_quoted(options.povray)));
+  return 0;
+}
+
 /// Is one of the names that of a file rather than of an experiment?
 bool has_files(const SimulateArguments& options) {
   return std::ranges::any_of(options.names, [](const std::string& name) {
@@ -159,14 +165,12 @@ int simulate_scenes(const SimulateArguments& options) {
     const SceneFile file = options.robot.scene(name);
     for (const Candidate* candidate : candidates) {
       CandidateModel model(processes.of(*candidate), Unsupported::refused);
-      const Trajectory run = options.disturbance.run_of(
-          file.scene, options.recording.seed,
-          [&](const DisturbedScene& scene) { return run_scene(scene.scene, model); });
-      const std::string which =
-          options.disturbance.option.is_given()
-              ? fmt::format(", disturbance {} of seed {}", options.disturbance.number,
-                            options.recording.seed)
-              : "";
+      const Trajectory run = options.run_of(
+          file.scene, [&](const DisturbedScene& scene) { return run_scene(scene.scene, model); });
+      const std::string which = options.disturbance == 0
+                                    ? ""
+                                    : fmt::format(", disturbance {} of seed {}",
+                                                  options.disturbance, options.recording.seed);
       print(fmt::format("{}, {}{}\n{}", file.name, candidate->name, which,
                         motion_table(file.scene, run)));
     }
@@ -194,25 +198,19 @@ int simulate_in_engines(const SimulateArguments& options) {
 
 /// Refuses options that would have no effect.
 void refuse_others(const SimulateArguments& options) {
-  const bool files = has_files(options) || !options.record.empty();
+  const bool files = has_files(options) || !options.record.empty() || !options.povray.empty();
   for (const Option& option : files ? options.of_experiments : options.of_files) {
     if (!option.is_given()) continue;
     throw InvalidInput(option.name(), "given",
                        files ? "must be with experiments, not with scene files"
                              : "must be with scene files, robots or worlds");
   }
-  const bool records = !options.record.empty();
-  if (options.count->is_given() && !records) {
-    throw InvalidInput("--count", "given", "must be with --record");
-  }
-  if (options.seed->is_given() && !records && !options.disturbance.option.is_given()) {
-    throw InvalidInput("--seed", "given", "must be with --record or --disturbance");
-  }
 }
 
 int run_simulate(const SimulateArguments& options) {
   refuse_others(options);
   if (!options.record.empty()) return record(options);
+  if (!options.povray.empty()) return write_frames(options);
   if (!options.engines.empty()) return simulate_in_engines(options);
   if (has_files(options)) return simulate_scenes(options);
   const ExperimentOptions experiments = options.experiments();
@@ -259,28 +257,44 @@ void add_simulate(Program& program) {
                 "Folder for experiments.json; with --engine for engines.json, engines.html")
           .value("FOLDER");
   const Option json = command.flag("--json", options->json, "Print one JSON object");
-  const char* recording = "Of scenes, with exact contacts";
+  const Option record =
+      command
+          .text("--record", options->record,
+                "File for configurations near contact that occur in scenes with exact contacts "
+                "(docs/scenes.md)")
+          .value("FILE");
+  command.count("--count", options->recording.count, {1, 1000000},
+                "Configurations of each scene and pair of shapes");
+  const Option povray = command
+                            .text("--povray", options->povray,
+                                  "Folder for the motion in a scene as frames for POV-Ray: "
+                                  "scene.ini, scene.pov and a file for each")
+                            .value("FOLDER");
+  command.number("--every", options->every, {1e-6, 1e6}, "Seconds between frames");
   command
-      .text("--record", options->record,
-            "File for configurations near contact that occur in the scenes (docs/scenes.md)")
-      .value("FILE")
-      .excludes(out)
-      .excludes(engine)
-      .excludes(json)
-      .excludes(options->disturbance.option)
-      .group(recording);
-  options->disturbance.option.excludes(engine);
+      .list("--contacts", options->contacts,
+            "The candidate that contacts come from; or candidates of kinds of pairs, as in "
+            "choose's commands, with exact contacts of all others")
+      .value("CANDIDATE");
+  const Option disturbance =
+      command.count("--disturbance", options->disturbance, {0, 5000},
+                    "The scene under this one of choose's disturbances; 0: as it is written");
+  command.count("--seed", options->recording.seed, all_counts,
+                "Same seed, same disturbances; or with --record same configurations");
   options->of_experiments = {step, out, json};
   options->of_files = options->robot.all();
-  options->of_files.push_back(options->disturbance.option);
-  options->count = command
-                       .count("--count", options->recording.count, {1, 1000000},
-                              "Configurations of each scene and pair of shapes")
-                       .group(recording);
-  options->seed = command
-                      .count("--seed", options->recording.seed, all_counts,
-                             "Same seed, same configurations; or same disturbances")
-                      .group(recording);
+  options->of_files.push_back(disturbance);
+  std::vector<std::string> of_scene = {"--time-limit", "--memory-limit"};
+  for (const Option& option : options->robot.all()) of_scene.push_back(option.name());
+  const auto with = [&](std::vector<std::string> names) {
+    names.insert(names.end(), of_scene.begin(), of_scene.end());
+    return names;
+  };
+  command.mode(engine, {}, {"--step", "--out", "--json", "--workers"});
+  command.mode(record, {"--count", "--seed"}, of_scene);
+  command.mode(povray, {"--every", "--contacts"}, with({"--disturbance", "--seed"}));
+  command.mode(disturbance, {"--seed"},
+               with({"--candidates", "--povray", "--every", "--contacts"}));
   command.footer(
       "Examples:\n"
       "  touchstone simulate rolling\n"
@@ -289,64 +303,10 @@ void add_simulate(Program& program) {
       "  touchstone simulate small-log --engine bullet --out out\n"
       "  touchstone simulate simulation/scenes/rover.urdf --duration 1\n"
       "  touchstone simulate simulation/scenes/three-logs.json --disturbance 3\n"
+      "  touchstone simulate simulation/scenes/thesis-knock.json --povray out/render\n"
       "  touchstone simulate simulation/scenes/conveyor.json --record recorded.jsonl\n" +
       experiment_list());
   command.runs([options] { return run_simulate(*options); });
-}
-
-namespace {
-
-struct RenderOptions {
-  explicit RenderOptions(Command& command) : robot(command), disturbance(command) {}
-  RobotOption robot;
-  DisturbanceOption disturbance;
-  std::uint64_t seed = Trials().seed;
-  std::string scene, out = "out/render";
-  std::vector<std::string> contacts = {"reference"};
-  double every = 0.04;
-};
-
-int run_render(const RenderOptions& options) {
-  const SceneFile file = options.robot.scene(options.scene);
-  const NamedContacts contacts = read_contacts(options.contacts, file.scene);
-  const OutputFolder out(options.out);
-  Processes processes({});
-  const Trajectory run =
-      options.disturbance.run_of(file.scene, options.seed, [&](const DisturbedScene& scene) {
-        return run_with(scene, contacts, *exact_first({}).front(), processes);
-      });
-  const int frames = write_povray(file, run, options.every, options.out);
-  print(fmt::format("{}. To draw with Debian's povray:\n  cd {} && povray scene.ini\n",
-                    counted(frames, "frame"), shell_quoted(options.out)));
-  return 0;
-}
-
-}  // namespace
-
-void add_render(Program& program) {
-  Command command =
-      program.command("render", "Run a scene and write it for POV-Ray, frame by frame");
-  const auto options = std::make_shared<RenderOptions>(command);
-  command.text("scene", options->scene, "A scene file, or a robot or world (.urdf, .sdf, MJCF)")
-      .value("FILE")
-      .required();
-  command.number("--every", options->every, {1e-6, 1e6}, "Seconds between frames");
-  command
-      .list(
-          "--contacts", options->contacts,
-          "The candidate that contacts come from; or candidates of kinds of pairs, as in choose's "
-          "commands, with exact contacts of all others")
-      .value("CANDIDATE");
-  command.count("--seed", options->seed, all_counts, "Same seed, same disturbances");
-  command.text("--out", options->out, "Folder for scene.pov, scene.ini and the frames")
-      .value("FOLDER");
-  command.footer(
-      "Examples:\n"
-      "  touchstone render simulation/scenes/thesis-knock.json\n"
-      "  touchstone render simulation/scenes/log-pile.json --contacts capsule\n"
-      "  touchstone render simulation/scenes/log-pile.json --disturbance 3\n"
-      "  touchstone render simulation/scenes/gripper.urdf");
-  command.runs([options] { return run_render(*options); });
 }
 
 }  // namespace touchstone

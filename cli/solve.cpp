@@ -8,25 +8,26 @@
 
 #include "cli/command.hpp"
 #include "cli/options.hpp"
-#include "oracle/audit/certificate.hpp"
-#include "properties/files/configuration_json.hpp"
 
 namespace touchstone {
 namespace {
 
 struct SolveArguments {
-  explicit SolveArguments(Command& command) : candidates(command), bar(command) {}
+  explicit SolveArguments(Command& command)
+      : candidates(command), bar(command), workers(command, 1, "1") {}
   CandidateOption candidates;
   BarOption bar;
+  WorkersOption workers;
   std::string file = "-";
   double width = 1e-30;
-  bool audit = false;
+  bool audit = false, csv = false;
 };
 
 /// Bad lines make exit code 2, after all of them are answered; a contradiction ends all.
 int run_solve(const SolveArguments& options) {
-  const SolveOptions solving{options.candidates.get(), options.width, options.bar.get(),
-                             options.audit, options.candidates.limits()};
+  const SolveOptions solving{
+      options.candidates.get(),    options.width,         options.bar.get(), options.audit,
+      options.candidates.limits(), options.workers.get(), options.csv};
   if (options.file == "-") return solve(std::cin, std::cout, solving) ? 0 : 2;
   std::ifstream in = opened(options.file, "file");
   return solve(in, std::cout, solving) ? 0 : 2;
@@ -42,51 +43,20 @@ void add_solve(Program& program) {
   command.number("--width", options->width, {1e-300, 1e30},
                  "Width of the truth, relative to the larger size");
   command.flag("--audit", options->audit, "Let the second oracle check every truth");
+  command.flag("--csv", options->csv, "Print CSV, a row for each line and candidate");
   command.footer(
       "Examples:\n"
       "  touchstone solve poses.jsonl > answers.jsonl\n"
+      "  touchstone solve poses.jsonl --workers 8 --csv > answers.csv\n"
       "  echo '{\"a\":{\"shape\":\"cylinder\",\"radius\":0.5,\"half_length\":1},\n"
       "         \"b\":{\"shape\":\"sphere\",\"radius\":1}}' | tr -d '\\n' | touchstone solve\n"
       "  touchstone solve --candidates bullet --width 1e-50 poses.jsonl\n"
       "Shapes: cylinder and capsule (radius, half_length), sphere (radius),\n"
       "box (half_extents), plane (normal, displacement).\n"
-      "A pose has position and orientation (w, x, y, z).");
+      "A pose has position and orientation (w, x, y, z), or rotation (a matrix), or axis\n"
+      "(\"y\" or a vector: where the axis of the cylinder points).\n"
+      "With one worker each line is answered as soon as it has come.");
   command.runs([options] { return run_solve(*options); });
-}
-
-namespace {
-
-struct CertifyOptions {
-  std::string input;
-  double width = 1e-30;
-  std::uint64_t cells = 4000;
-};
-
-int run_certify(const CertifyOptions& options) {
-  const Configuration c = given_configuration(options.input).configuration;
-  const audit::Certificate certificate =
-      audit::certify(c, {options.width, static_cast<int>(options.cells)});
-  print(fmt::format("{}\n", certificate_json(certificate, c)));
-  return 0;
-}
-
-}  // namespace
-
-void add_certify(Program& program) {
-  Command command =
-      program.command("certify", "Prove one signed distance: a file that others can check");
-  const auto options = std::make_shared<CertifyOptions>();
-  command.text("input", options->input, given_help).value("IDENTITY").required();
-  command.number("--width", options->width, {1e-60, 1e30},
-                 "Width to prove, relative to the larger size; down to 1e-60");
-  command.count("--cells", options->cells, {0, 1000000},
-                "End at so many cells of directions, with the width reached by then");
-  command.footer(
-      "Examples:\n"
-      "  touchstone certify cylinder-box/parallel+tilted-1e-6/42/137 > proof.json\n"
-      "  touchstone certify --width 1e-12 pose.jsonl > proof.json\n"
-      "  python3 oracle/check_certificate.py proof.json");
-  command.runs([options] { return run_certify(*options); });
 }
 
 }  // namespace touchstone

@@ -34,12 +34,12 @@ dpkg-deb -x "${package[0]}" "$folder/root"
 cd /
 prefix=$folder/root/usr
 touchstone=$prefix/bin/touchstone
-[ "$("$touchstone" candidates | grep -c '^[a-z]')" = "$("$1/touchstone" candidates | grep -c '^[a-z]')" ] ||
+[ "$("$touchstone" list candidates | grep -c '^[a-z]')" = "$("$1/touchstone" list candidates | grep -c '^[a-z]')" ] ||
   fail "the unpacked program finds other candidates"
 (cd "$folder" && "$touchstone" report --pair cylinder-plane --count 1 >table 2>messages) ||
   { cat "$folder/messages"; fail "report"; }
 [ -s "$folder/out/report.html" ] || fail "no report.html"
-"$touchstone" certify cylinder-box/rim-face/1/0 >"$folder/proof.json"
+"$touchstone" replay --certify cylinder-box/rim-face/1/0 >"$folder/proof.json"
 python3 "$prefix/share/touchstone/check_certificate.py" "$folder/proof.json" >/dev/null
 
 # What it prints can be run there, and the pages that it names can be read, with those they link to.

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks certificates of `touchstone certify`: check_certificate.py FILE...
+"""Checks certificates of `touchstone replay --certify`: check_certificate.py FILE...
 
 A certificate proves lo <= signed distance <= hi of two bodies; docs/certificate.md has the format,
 the proof and the limits. All arithmetic is rational, and nothing is shared with the program that
@@ -15,7 +15,7 @@ from decimal import Context, Decimal
 from fractions import Fraction
 from math import inf, isfinite, isqrt, lcm
 
-# Limits of time and memory; what `touchstone certify` writes stays far below them.
+# Limits of time and memory; what `touchstone replay --certify` writes stays far below them.
 MAX_BYTES = 16 * 2**20  # of a file
 MAX_DIGITS = 4000  # of a numerator or a denominator
 MAX_CELLS = 100_000

@@ -236,7 +236,7 @@ class Numbers(CheckerTest):
     def test_certify_reads_the_same(self):
         for spelled in self.READ:
             with self.subTest(spelled[:60]):
-                run = self.run_program(["certify", "-"], spelled)
+                run = self.run_program(["replay", "--certify", "-"], spelled)
                 self.assertEqual(run.returncode, 0, run.stderr)
                 read = json.loads(run.stdout)["configuration"]["pose_b"]["position"][2]
                 self.assertEqual(float.fromhex(read), self.READ[spelled])

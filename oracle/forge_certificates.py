@@ -31,7 +31,7 @@ def certificates(program):
     for pair in PAIRS:
         for name in CLASSES:
             for width in WIDTHS if name == "general-deep" else WIDTHS[:1]:
-                run = subprocess.run([program, "certify", f"cylinder-{pair}/{name}/20261122/0",
+                run = subprocess.run([program, "replay", "--certify", f"cylinder-{pair}/{name}/20261122/0",
                                       "--width", width, "--cells", "400"],
                                      stdout=subprocess.PIPE, check=True)
                 yield run.stdout.strip()

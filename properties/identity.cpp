@@ -163,7 +163,7 @@ void check_pose_classes(const std::vector<Pair>& pairs, const std::vector<std::s
       throw InvalidInput("--class", in_quotes(name),
                          "must begin with an arrangement, as " +
                              nearest_arrangements(pairs, name.substr(0, name.find('+'))) +
-                             "; touchstone classes lists all");
+                             "; touchstone list classes has all");
     }
     // What is wrong with its modifiers.
     throw InvalidInput("--class", in_quotes(name),

@@ -254,7 +254,7 @@ std::string nearest_arrangements(const std::vector<Pair>& pairs, std::string_vie
 
 std::variant<PoseClass, std::string> parse_pose_class(Pair pair, std::string_view name) {
   const auto because = [&](const std::string& why) {
-    return fmt::format("{}; touchstone classes {} lists all", why, pair_name(pair));
+    return fmt::format("{}; touchstone list classes {} has all", why, pair_name(pair));
   };
   const std::vector<std::string_view> parts = split(todays_name(name), '+');
   PoseClass result(pair, find_arrangement(pair, parts.front()), {});

@@ -72,6 +72,11 @@ template <>
 inline constexpr const char* must_be<Numbers<Eigen::Vector4d>> =
     "four numbers, none of them masked";
 template <>
+inline constexpr const char* must_be<std::optional<Numbers<Eigen::Matrix3d>>> =
+    "three rows of three numbers, none of them masked";
+template <>
+inline constexpr const char* must_be<std::optional<Numbers<Vec3>>> = must_be<Numbers<Vec3>>;
+template <>
 inline constexpr const char* must_be<std::uint64_t> = "a whole number that is not negative";
 template <>
 inline constexpr const char* must_be<unsigned> = must_be<std::uint64_t>;

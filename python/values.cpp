@@ -4,6 +4,7 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
+#include "properties/given_orientation.hpp"
 #include "python/parameters.hpp"
 #include "reference/invalid_input.hpp"
 
@@ -99,23 +100,38 @@ its ends reach half_length + radius. Metres.
 }
 
 void bind_pose(py::module_& m) {
-  py::class_<Pose> pose(m, "Pose", R"(Pose(position=(0, 0, 0), orientation=(1, 0, 0, 0))
+  py::class_<Pose> pose(
+      m, "Pose",
+      R"(Pose(position=(0, 0, 0), orientation=(1, 0, 0, 0), rotation=None, axis=None)
 
 Where a body lies in the world: maps its frame to the world's. The position is in metres, the
-orientation a quaternion w, x, y, z of any length but zero; it is kept as given.
+orientation a quaternion w, x, y, z of any length but zero; it is kept as given. In its place there
+may be a rotation, a 3 × 3 array that is one to 1e-9, or an axis, the direction of the body's z in
+the world, which the shortest turn brings there.
 
 >>> touchstone.Pose((0, 0, 1))
 Pose(position=(0.0, 0.0, 1.0), orientation=(1.0, 0.0, 0.0, 0.0))
 >>> touchstone.Pose(orientation=(0, 0, 0, 2)).rotation @ (1, 0, 0)
 array([-1.,  0.,  0.])
+>>> touchstone.Pose((0, 0, 1), axis=(0, 1, 0))
+Pose(position=(0.0, 0.0, 1.0), orientation=(1.0, -1.0, 0.0, 0.0))
 )");
   define_constructor(
       pose,
-      +[](const Numbers<Vec3>& position, const Numbers<Eigen::Vector4d>& orientation) {
+      +[](const Numbers<Vec3>& position, const Numbers<Eigen::Vector4d>& orientation,
+          const std::optional<Numbers<Eigen::Matrix3d>>& rotation,
+          const std::optional<Numbers<Vec3>>& axis) {
         const Eigen::Vector4d& q = orientation;
-        return Pose(position, Eigen::Quaterniond(q[0], q[1], q[2], q[3]));
+        if ((rotation || axis) && (q != Eigen::Vector4d(1, 0, 0, 0) || (rotation && axis))) {
+          throw InvalidInput(axis ? "axis" : "rotation", "given",
+                             "must stand without orientation, rotation and axis besides");
+        }
+        return Pose(position, rotation ? orientation_of(rotation->vector)
+                              : axis   ? orientation_along(axis->vector)
+                                       : Eigen::Quaterniond(q[0], q[1], q[2], q[3]));
       },
-      py::arg("position") = Vec3(0, 0, 0), py::arg("orientation") = Eigen::Vector4d(1, 0, 0, 0));
+      py::arg("position") = Vec3(0, 0, 0), py::arg("orientation") = Eigen::Vector4d(1, 0, 0, 0),
+      py::arg("rotation") = py::none(), py::arg("axis") = py::none());
   pose.def_property_readonly(
       "position", [](const Pose& p) { return vector_to_python(p.position()); },
       "Metres, world frame; an array of three.");

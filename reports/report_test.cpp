@@ -553,6 +553,22 @@ TEST(Solve, ABadLineIsNamedAndTheRestGoOn) {
   EXPECT_EQ(lines[5]["truth"], lines[0]["truth"]);
 }
 
+TEST(Solve, GivesBackEveryScalarAsAnIdAndRefusesOthers) {
+  bool good = true;
+  json line = json::parse(on_sphere);
+  for (const json& id : {json("c1"), json(7), json(1.5), json(true), json()}) {
+    line["id"] = id;
+    const auto lines = solved(line.dump(), good);
+    EXPECT_TRUE(good) << id;
+    EXPECT_EQ(lines[0].at("id"), id);
+  }
+  line["id"] = {1, 2};
+  const auto lines = solved(line.dump(), good);
+  EXPECT_FALSE(good);
+  EXPECT_EQ(lines[0]["field"], "id");
+  EXPECT_FALSE(lines[0].contains("id"));
+}
+
 TEST(Solve, RefusesWhatOnlyBeginsAsAConfiguration) {
   const std::string twice =
       R"({"a":{"shape":"cylinder","radius":1,"radius":2,"half_length":1},"b":{"shape":"sphere","radius":1}})";
@@ -570,6 +586,67 @@ TEST(Solve, RefusesWhatOnlyBeginsAsAConfiguration) {
   EXPECT_THAT(lines[3]["error"].get<std::string>(), HasSubstr("at most"));
   EXPECT_TRUE(lines[4].contains("truth"));
   for (const json& line : lines) EXPECT_LT(line.value("error", "").size(), 500U);
+}
+
+// cli/tests/solve_test.sh asks a candidate with a memory.
+TEST(Solve, WritesTheSameWhateverTheNumberOfWorkers) {
+  std::string input;
+  json line = json::parse(on_sphere);
+  line["b"] = json::parse(R"({"shape":"box","half_extents":[1,1,0.75]})");
+  for (int i = 0; i < 600; ++i) {
+    line["id"] = i;
+    line["pose_a"]["position"] = {1e-3 * i, 0, 1.7};
+    line["pose_a"]["axis"] = {0.001 * (i % 7), 0, 1};
+    input += (i == 300 ? "nonsense" : line.dump()) + '\n';
+  }
+  for (const bool csv : {false, true}) {
+    const auto written = [&](unsigned workers) {
+      std::istringstream in(input);
+      std::ostringstream out;
+      EXPECT_FALSE(solve(in, out,
+                         {.candidates = find_candidates({"bullet-persistent"}),
+                          .width = 1e-15,
+                          .bar = {},
+                          .workers = workers,
+                          .csv = csv}));
+      return out.str();
+    };
+    const std::string one = written(1);
+    EXPECT_EQ(std::count(one.begin(), one.end(), '\n'), csv ? 601 : 600);
+    EXPECT_TRUE(written(3) == one) << (csv ? "CSV" : "JSON");
+  }
+}
+
+TEST(Solve, WritesARowOfCsvForEachLineAndCandidate) {
+  json line = json::parse(on_sphere);
+  line["id"] = "a \"long\", long id";
+  json swapped = json::parse(on_sphere);
+  std::swap(swapped["a"], swapped["b"]);
+  swapped["pose_b"] = swapped["pose_a"];
+  swapped.erase("pose_a");
+  swapped["id"] = 2;
+  std::istringstream in(line.dump() + "\n\n" + swapped.dump() + "\n{\"id\":null}\n");
+  std::stringstream out;
+  EXPECT_FALSE(solve(in, out,
+                     {.candidates = find_candidates({"reference", "bullet"}),
+                      .width = 1e-15,
+                      .bar = {},
+                      .csv = true}));
+  std::vector<std::string> rows;
+  for (std::string row; std::getline(out, row);) rows.push_back(row);
+  ASSERT_EQ(rows.size(), 6U) << out.str();
+  EXPECT_THAT(rows[0], testing::StartsWith("line,id,candidate,signed_distance,"));
+  const std::string length = R"(-0\.5,[0-9.e-]+,-0\.5[0-9]*,-0\.(5|49)[0-9]*,unique,)";
+  EXPECT_THAT(rows[1], testing::MatchesRegex(R"re(1,"a ""long"", long id",reference,)re" + length +
+                                             "0.0 0.0 1.0,contact,-0\\.5,0.0 0.0 1.0,1,agree,.*"));
+  EXPECT_THAT(rows[2], testing::HasSubstr(",bullet,"));
+  EXPECT_THAT(rows[3], testing::StartsWith("3,2,reference,-0.5,"));
+  EXPECT_THAT(rows[3], testing::HasSubstr("-1.0,contact,"));
+  EXPECT_EQ(rows[5].substr(0, 7), "4,null,");
+  EXPECT_THAT(rows[5], testing::HasSubstr("a is missing: must be given"));
+  for (const std::string& row : {rows[0], rows[3], rows[4]}) {
+    EXPECT_EQ(std::count(row.begin(), row.end(), ','), 21) << row;
+  }
 }
 
 TEST(Solve, EndsWhereItsAnswersAreLost) {

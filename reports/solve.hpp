@@ -26,13 +26,16 @@ struct SolveOptions {
   std::vector<const Candidate*> candidates;
   double width = 1e-30;  ///< of the truth, relative to the larger size
   Bar bar;
-  bool audit = false;  ///< let the second oracle check every truth
-  Limits limits = {};  ///< of each candidate on one configuration
+  bool audit = false;    ///< let the second oracle check every truth
+  Limits limits = {};    ///< of each candidate on one configuration
+  unsigned workers = 1;  ///< processes; they do not change what is written
+  bool csv = false;      ///< a row for each line and candidate instead of JSON
 };
 
-/// One JSON object a line in, one a line out (docs/solve.md). A bad line is answered with an error
-/// object and the rest go on; returns false if there was any. Throws Contradiction if the two
-/// oracles disagree.
+/// One JSON object a line in, one a line out (docs/solve.md), in the order of the lines; with one
+/// worker each as soon as its line has come. A bad line is answered with an error and the rest go
+/// on; returns false if there was any. Throws Contradiction if the two oracles disagree, or, from a
+/// worker, what says so.
 bool solve(std::istream& in, std::ostream& out, const SolveOptions& options);
 
 // What the second oracle says, held against the first one and written down:

@@ -48,7 +48,7 @@ function readAnswers(file, cases) {  // cases by id; throws an Error with the li
     try { answer = JSON.parse(row); } catch (e) { throw wrong(`is not JSON (${e.message}): write an object on each line`); }
     if (!isObject(answer)) throw wrong('is no object: write {"id": …, "status": …}');
     if (i === 0 && !('id' in answer) && 'candidate' in answer) continue;
-    if (typeof answer.id !== 'string') throw wrong('id is missing: must be that of a configuration');
+    if (!('id' in answer)) throw wrong('id is missing: must be that of a configuration');
     if (!cases.has(answer.id)) throw wrong(`id is ${JSON.stringify(answer.id)}: must be that of a configuration of the suite`);
     if (typeof answer.status !== 'string') throw wrong('status is missing: must be "contact", "none" or why there is no answer');
     for (const [name, [isRight, rightForm]] of answer.status === 'contact' ? Object.entries(kinds) : []) {

@@ -44,8 +44,8 @@ def read_answers(file, cases):  # by id; raises ValueError with the line and fie
         except (ValueError, RecursionError) as e: raise wrong(f"is not JSON ({e}): write an object on each line")
         if not isinstance(answer, dict): raise wrong('is no object: write {"id": …, "status": …}')
         if line == 1 and "id" not in answer and "candidate" in answer: continue
-        if not isinstance(answer.get("id"), str): raise wrong("id is missing: must be that of a configuration")
-        if answer["id"] not in cases: raise wrong(f'id is {json.dumps(answer["id"])}: must be that of a configuration of the suite')
+        if "id" not in answer: raise wrong("id is missing: must be that of a configuration")
+        if not isinstance(answer["id"], str) or answer["id"] not in cases: raise wrong(f'id is {json.dumps(answer["id"])}: must be that of a configuration of the suite')
         if not isinstance(answer.get("status"), str): raise wrong('status is missing: must be "contact", "none" or why there is no answer')
         for name, (is_right, right_form) in kinds.items() if answer["status"] == "contact" else ():
             if name not in answer: raise wrong(f"{name} is missing: must be {right_form}")

@@ -548,6 +548,10 @@ TEST(Readers, RefuseAnswersThatAreNoneAndNameTheLineAndTheField) {
   expect_refused(good + R"({"status": "none"})", ":2: id is missing");
   expect_refused(R"({"id": "mine/1", "status": "none"})",
                  ":1: id is \"mine/1\": must be that of a configuration");
+  expect_refused(R"({"id": true, "status": "none"})",
+                 ":1: id is true: must be that of a configuration");
+  expect_refused(R"({"id": [], "status": "none"})",
+                 ":1: id is []: must be that of a configuration");
   expect_refused(id + "}", ":1: status is missing");
   expect_refused(contact + "}", ":2: signed_distance is missing: must be a number");
   expect_refused(contact + R"(, "signed_distance": -1, "points": []})",

@@ -12,8 +12,8 @@ cd "$folder"
   -o my_engine.so -lm
 
 touchstone=$folder/prefix/bin/touchstone
-"$touchstone" candidates | grep -q '^reference '  # the installed plug-ins are found
-"$touchstone" --load ./my_engine.so candidates | grep -A 1 '^my-engine 1.0' |
+"$touchstone" list candidates | grep -q '^reference '  # the installed plug-ins are found
+"$touchstone" --load ./my_engine.so list candidates | grep -A 1 '^my-engine 1.0' |
   grep -qx '  cylinder against plane'
 "$touchstone" report --load ./my_engine.so --candidates reference,my-engine \
   --pair cylinder-plane --class touching-tilted,general-shallow,lying,standing --count 20 --out out \

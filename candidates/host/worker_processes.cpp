@@ -8,6 +8,7 @@
 #include <cstring>
 #include <exception>
 #include <malloc.h>
+#include <map>
 #include <poll.h>
 #include <signal.h>
 #include <stdexcept>
@@ -263,6 +264,23 @@ bool stream_from_processes(std::uint64_t count, unsigned workers,
                       std::to_string(count) + " tasks were done");
   }
   return true;
+}
+
+bool stream_in_order(std::uint64_t count, unsigned workers,
+                     const std::function<std::string(std::uint64_t)>& task,
+                     const std::function<std::string(std::uint64_t)>& name,
+                     const std::function<void(std::string)>& take,
+                     const std::function<bool()>& go_on) {
+  std::map<std::uint64_t, std::string> waiting;
+  std::uint64_t next = 0;
+  const auto take_in_turn = [&](std::uint64_t index, std::string result) {
+    waiting[index] = std::move(result);
+    for (auto first = waiting.begin(); first != waiting.end() && first->first == next; ++next) {
+      take(std::move(first->second));
+      first = waiting.erase(first);
+    }
+  };
+  return stream_from_processes(count, workers, task, name, take_in_turn, go_on);
 }
 
 }  // namespace touchstone

@@ -40,6 +40,14 @@ bool stream_from_processes(
     const std::function<void(std::uint64_t, std::string)>& take, const std::function<bool()>& go_on,
     const std::function<void()>& forget = [] {});
 
+/// Likewise, but passes the results in the order of the tasks. Those that come before their turn
+/// wait, and are dropped where it does not come.
+bool stream_in_order(std::uint64_t count, unsigned workers,
+                     const std::function<std::string(std::uint64_t)>& task,
+                     const std::function<std::string(std::uint64_t)>& name,
+                     const std::function<void(std::string)>& take,
+                     const std::function<bool()>& go_on);
+
 /// Candidates of a worker: started at the first use, which is after the fork, so that each worker
 /// has its own.
 class WorkerCandidates {

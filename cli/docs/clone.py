@@ -19,11 +19,10 @@ SHORTER = {
     "check": {"--law": "agreement", "--pair": "cylinder-plane", "--count": "1"},
     "campaign": {"--pair": "cylinder-plane", "--class": "lying", "--count": "1600",
                  "--candidates": "reference"},
-    "search": {"--pair": "cylinder-plane", "--class": "general-shallow", "--count": "8"},
     "stability": {"--part": "amplification", "--count": "1", "--candidates": "reference"},
-    "simulate": {"--step": "0.016", "--candidates": "reference", "--duration": "0.1"},
+    "simulate": {"--step": "0.016", "--candidates": "reference", "--duration": "0.1",
+                 "--every": "1"},
     "choose": {"--candidates": "capsule", "--disturbances": "1", "--duration": "0.1"},
-    "render": {"--every": "1"},
 }
 REPLACED = {"--count", "--disturbances"}
 SCENE_LASTS = 0.2  # seconds, of all scenes in the clone
@@ -37,7 +36,9 @@ def has_no_place(option, arguments):
     of_scene = of_robot or any(a.endswith(".json") for a in arguments)
     of_samples = any(a in arguments for a in ("--depth", "--angle", "--count"))
     return {"--class": "--group" in arguments,  # which may have no such class
-            "--candidates": "--engine" in arguments,
+            "--candidates": any(a in arguments for a in ("--engine", "--povray", "--record")),
+            "--law": "--search" in arguments,
+            "--every": "--povray" not in arguments,
             "--step": of_scene or "--engine" in arguments,
             "--duration": not of_robot or of_samples,
             "--disturbances": of_samples}.get(option, False)
@@ -46,7 +47,7 @@ def has_no_place(option, arguments):
 def shortened(arguments):
     """The arguments that the program is given in place of a page's."""
     command = next((a for a in arguments if a in SHORTER), None)
-    if command is None or "--help" in arguments:
+    if command is None or "--help" in arguments or "--merge" in arguments:
         return arguments
     for option, value in SHORTER[command].items():
         if option not in arguments:

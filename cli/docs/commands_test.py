@@ -23,7 +23,6 @@ from pages import blocks_of, elsewhere_of, job_files_of, job_of  # noqa: E402
 EXIT_CODES = {
     "./reproducer": {1},
     "./touchstone check": {0, 1},
-    "./touchstone search": {0, 1},
     "./touchstone compare": {0, 1},
     "./touchstone choose": {0, 1},
     "python3 suite/judge.py": {1},
@@ -49,7 +48,7 @@ for case in judge.read("suite/touchstone-suite-1.csv.gz"):
     "world.sdf": "cp simulation/scenes/warehouse.sdf world.sdf",
     "failures": f"mkdir failures && grep -m 1 {KNOWN_FAILURE} properties/known_failures.jsonl "
                 f"> failures/{KNOWN_FAILURE}.json",
-    "merge run": "./touchstone campaign --out run",
+    "--merge run": "./touchstone campaign --out run",
     "before/report.json": "./touchstone report --out before && ./touchstone report",
     "tests/touchstone.json": "./touchstone report --seed 1 --out old && mkdir tests && "
                              "cp old/report.json tests/touchstone.json",
@@ -69,7 +68,7 @@ def faults_of_job_file(clone, text):
     alone = re.sub(r'--(shard|workers) ("[^"]*"|\S+)|--resume', "", re.sub(r"\\\n\s*", "", script))
     folder = re.search(r"--out (\S+)", alone)[1]
     alone = alone.replace(f"--out {folder}", "--out alone")
-    code, printed = clone.run(f"touchstone merge {folder} --out merged && {alone}\n"
+    code, printed = clone.run(f"touchstone campaign --merge {folder} --out merged && {alone}\n"
                               "cmp alone/campaign.json merged/campaign.json")
     return [] if code == 0 else [f"merged, its jobs make something else: {printed[-500:]}"]
 

@@ -26,16 +26,17 @@ def missing_files(page, files):
 
 
 def known_options(program):
-    """Those of all subcommands, and one of Open MPI's."""
+    """Those of all subcommands, also those that --help hides, and one of Open MPI's."""
     completion = subprocess.run([program, "--completion", "bash"], stdout=subprocess.PIPE,
                                 text=True, check=True)
-    return {"--oversubscribe", *re.findall(r"--[a-z-]+", completion.stdout)}
+    hidden = {"--cells", "--checkpoint", "--hostile", "--memory-limit", "--of-version"}
+    return {"--oversubscribe", *hidden, *re.findall(r"--[a-z-]+", completion.stdout)}
 
 
 def wrong_counts(text, program):
     """Of configurations, where a page says how many a command takes of each class."""
     paragraphs = " ".join(p for p in re.split(r"\n\n", text) if "of each class" in p)
-    said = re.findall(r"`(report|check|search|campaign)` (?:takes |scores )?([\d,]*\d)\b",
+    said = re.findall(r"`(report|check|campaign)` (?:takes |scores )?([\d,]*\d)\b",
                       " ".join(paragraphs.split()))
     for command, number in said:
         told = subprocess.run([program, command, "--help"], stdout=subprocess.PIPE, text=True,

@@ -12,10 +12,15 @@ expect 0 '^4 configurations' campaign --pair cylinder-sphere --class cap,side --
   --out "$folder/c"
 expect 2 'already holds a campaign, in shard-.*bin: ./touchstone campaign .*--class cap,side.*choose another folder' \
   campaign --out "$folder/c"
-expect 2 'already holds a campaign, in shard-.*choose another folder' merge "$folder/c" --out "$folder/c"
-expect 0 '^4 configurations' merge "$folder/c" --out "$folder/m"
-expect 2 'could not be opened' merge "$folder/none" --out "$folder/n"
-expect 2 'campaign.json" is the result of a campaign: must be a shard file' merge "$folder/m/campaign.json" \
+expect 2 'already holds a campaign, in shard-.*choose another folder' campaign --merge "$folder/c" --out "$folder/c"
+expect 0 '^4 configurations' campaign --merge "$folder/c" --out "$folder/m"
+expect 2 'could not be opened' campaign --merge "$folder/none" --out "$folder/n"
+expect 2 'campaign.json" is the result of a campaign: must be a shard file' campaign --merge "$folder/m/campaign.json" \
   --out "$folder/n"
+
+# A campaign is scored, or its parts are merged.
+expect 2 '^error: --count is given with --merge: must stand without it' campaign --merge "$folder/c" --count 3
+expect 2 '^error: --partial is given: must stand beside --merge' campaign --partial --out "$folder/n"
+expect 2 '^error: --merge is given no value: must be followed by PATH: ' campaign --merge
 
 finish

@@ -15,9 +15,10 @@ expect 2 '--known.*must be a folder' check --known "$folder/none"
 expect 2 '--junit.*must be a folder that can be written' \
   check --candidate reference --count 1000000 --junit /proc/none/x.xml
 # Failures that could not be saved are known before they are looked for.
-for command in check search; do
+for search in "" --search; do
+  # shellcheck disable=SC2086
   expect 2 '^error: --save is "/proc/none": must be a folder that can be written to$' \
-    $command --candidate reference --save /proc/none
+    check $search --candidate reference --save /proc/none
 done
 
 # All laws. A line has no blanks at its end.
@@ -117,12 +118,12 @@ assert json.load(open(sys.argv[1] + "/check.json"))["laws"][0]["broken"] == 1
 END
 
 # What a search finds is saved alike.
-deep=(search --candidate capsule --pair cylinder-sphere --class general-deep)
+deep=(check --search --candidate capsule --pair cylinder-sphere --class general-deep)
 expect 1 'shallow\|overdeep\|missed' "${deep[@]}" --count 40 --save "$folder/found"
 also "replay - --candidates capsule" '^cylinder-sphere points .* 1 *1$'
 expect 0 'as expected' check --corpus "$folder/found"
 expect 0 'capsule: contact, \|capsule: none, ' replay "$(ls "$folder"/found/*.json | head -n 1)" --candidates capsule
 "$program" "${deep[@]}" --count 4 --json | python3 -m json.tool >"$folder/found.json" ||
-  failed "search --json is no JSON"
+  failed "check --search --json is no JSON"
 
 finish

@@ -32,7 +32,8 @@ done
 sed 's/radius="0.1"/radius="1e300"/' "$cart" >"$folder/huge.urdf"
 expect 2 'huge.urdf: link left\.' choose "$folder/huge.urdf"
 cp "$cart" "$folder/G.URDF"
-for command in choose render; do
+for command in choose "simulate --povray out"; do
+  # shellcheck disable=SC2086
   expect 2 "^error: scene is \".*G.URDF\": is XML: the name of a robot must end in .urdf" $command "$folder/G.URDF"
 done
 
@@ -69,7 +70,7 @@ left=$(cd "$folder/choice" && ls -1 choose.* choose/*99* choose/mine.json 2>/dev
 expect 0 'left and ground' choose "$cart" --duration 0.1 "${brief[@]}" --out "$folder/cart"
 # Its wheels roll, also in the command that makes a run again; of a robot without wheels the joints are named.
 also '; driven: left_wheel=3.14, right_wheel=3.14$'
-expect 0 "render [^ ]*cart.urdf --drive 'left_wheel=3.14,right_wheel=3.14' --duration 0.1 --contacts" \
+expect 0 "simulate [^ ]*cart.urdf --drive 'left_wheel=3.14,right_wheel=3.14' --duration 0.1 --povray out/render --contacts" \
   choose "$cart" --duration 0.1 "${brief[@]}" --json --out "$folder/cart"
 expect 0 '; driven: left_wheel=0$' choose "$cart" --drive left_wheel=0 --duration 0.1 "${brief[@]}" --out "$folder/cart"
 sed 's/type="continuous"/type="revolute"/; s/<axis xyz="0 0 1"\/>/&<limit lower="-1" upper="1" effort="9" velocity="9"\/>/' \
@@ -92,7 +93,7 @@ expect 2 'must have a cylinder that moves and touches something: see --drive' \
 
 # The command that choose.json has for a run that breaks a need makes that run again: the tilt of the can is
 # the one that was measured. As it is written the can balances on the pole of its capsule.
-expect 0 'render .*pedestal.json --contacts capsule --disturbance [0-9]* --seed 3$' \
+expect 0 'simulate .*pedestal.json --povray out/render --contacts capsule --disturbance [0-9]* --seed 3$' \
   choose "$folder/pedestal.json" --candidates capsule --seed 3 --out "$folder/again"
 page_data "$folder/again/choose.html" >"$folder/again/page.json"
 python3 - "$program" "$folder/again" <<'END' || failed "a run that breaks a need is not made again"
@@ -103,8 +104,8 @@ run = next(r for r in choice["runs"] if r["name"] == "capsule")
 assert not run["holds"] and run["disturbance"] > 0, run
 command = shlex.split(run["render"])
 assert command[0] == "./touchstone" and run["render"] in (folder / "page.json").read_text()
-subprocess.run([program, *command[1:], "--every", str(choice["scene"]["step"]), "--out", folder / "frames"],
-               check=True, stdout=subprocess.DEVNULL)
+command[command.index("--povray") + 1] = folder / "frames"
+subprocess.run([program, *command[1:], "--every", str(choice["scene"]["step"])], check=True, stdout=subprocess.DEVNULL)
 verdict, largest, first = run["verdicts"][0], 0, None
 for i, frame in enumerate(sorted((folder / "frames").glob("frame-*.inc"))):
     axis_z = float(re.findall(r"matrix <(.*)>", frame.read_text())[1].split(",")[8])

@@ -6,11 +6,11 @@
 expect 2 '^error: --corpus is "/dev/zero": must have at most 134217728 bytes' check --corpus /dev/zero
 expect 2 'line 1 is without an end: must have at most 1048576 bytes' solve /dev/zero
 expect 2 'line 1 is without an end' score /dev/zero --name mine --out "$folder/given"
-for command in replay certify choose merge "compare /dev/zero"; do
+for command in replay "replay --certify" choose "campaign --merge" "compare /dev/zero"; do
   expect 2 '^error: .*/dev/zero.* must ' $command /dev/zero
 done
 # Input that cannot be read is an error, not an empty file: a folder, or a closed standard input.
-for command in solve "score - --name mine --out $folder/lost" "replay -" "certify -"; do
+for command in solve "score - --name mine --out $folder/lost" "replay -" "replay --certify -"; do
   "$program" $command <"$folder" >/dev/null 2>"$folder/lost.log"
   lost_input=$?
   "$program" $command <&- >/dev/null 2>>"$folder/lost.log"
@@ -22,8 +22,8 @@ done
 r=$folder/report.json
 "$program" report $lying --count 1 --candidates reference --only scores --out "$folder" >/dev/null 2>&1
 long=$(printf 'x%.0s' {1..10000})
-for command in replay solve score choose render merge certify stability "check --corpus" "compare $r" \
-  "report --out" "replay $rim --html" "check --candidate reference --law" "report --class" "search --candidate"; do
+for command in replay solve score choose "simulate --povray out" "campaign --merge" "replay --certify" stability "check --corpus" "compare $r" \
+  "report --out" "replay $rim --html" "check --candidate reference --law" "report --class" "check --search --candidate"; do
   expect 2 'xxx\.\.\.' $command "$long"
 done
 expect 2 'input' replay "$rim$(printf '@1e-8/1/4%.0s' {1..10000})"
@@ -35,7 +35,7 @@ printf '{"a":{"shape":"sphere","radius":1e400},"b":%s}' "$body" >"$folder/large.
 for file in twice nul deep large; do
   case $file in twice) why='a.radius is given twice' ;; nul) why='nul.json is no JSON' ;; *) why='error: ' ;; esac
   expect 2 "$why" replay "$folder/$file.json"
-  for command in replay choose certify "compare $r"; do
+  for command in replay choose "replay --certify" "compare $r"; do
     [ "$command" = replay ] || expect 2 'error: ' $command "$folder/$file.json"
     ! grep -q 'json.exception' <<<"$printed" || failed "$command $file.json shows the library's words"
   done
@@ -54,6 +54,6 @@ sed 's/"duration":0.3/"duration":0.3,"gravity":[0,0,-1e200]/' "$can" >"$folder/h
 expect 2 'gravity\[2\] is -1e+200' choose "$folder/heavy.json"
 sed 's/"name":"can",/&"angular_velocity":[1e200,0,0],/' "$can" >"$folder/spun.json"
 expect 2 'bodies\[1\].angular_velocity\[0\] is 1e+200: must lie between' choose "$folder/spun.json"
-expect 2 'angular_velocity' render "$folder/spun.json"
+expect 2 'angular_velocity' simulate "$folder/spun.json" --povray "$folder/frames"
 
 finish

@@ -8,7 +8,7 @@ cp "$program" "$folder/part/"
 cp "$built"/candidates/touchstone-{*.so,host} "$folder/part/candidates/"
 rm -f "$folder/part/candidates/touchstone-fcl.so"
 program=$folder/part/touchstone
-expect 0 '^fcl: skipped; .*libfcl-dev' candidates
+expect 0 '^fcl: skipped; .*libfcl-dev' list candidates
 also '^bullet 3'
 expect 2 '"fcl-distance": is unavailable; fcl: skipped; was not built; install .*libfcl-dev' \
   replay $rim --candidates fcl-distance

@@ -13,10 +13,11 @@ mkdir "$folder/busy"
 exec 8<"$folder/busy"
 flock 8
 for command in report stability "campaign --count 1" "campaign --count 1 --shard 1/2" "score -" "choose $can" \
-  "render $can" "simulate lying" "simulate lying --engine ode"; do
+  "simulate lying" "simulate lying --engine ode"; do
   expect 2 "^error: --out is \"$folder/busy\": must be a folder that no other run of Touchstone is using; wait .* by --out\$" \
     $command --out "$folder/busy"
 done
+expect 2 '^error: --povray is ".*busy": must be .* another folder by --povray$' simulate "$can" --povray "$folder/busy"
 expect 2 '^error: --figures is ".*busy": must be .* another folder by --figures$' \
   report --out "$folder/free" --figures "$folder/busy"
 cp "$folder/line.jsonl" "$folder/busy/"
@@ -31,15 +32,15 @@ lost() {
   { [ "$1" -eq 2 ] && grep -q 'standard output' "$folder/lost.log"; } ||
     failed "$2: exit code $1: $(head -n 3 "$folder/lost.log")"
 }
-deep="search --candidate capsule --pair cylinder-sphere --class general-deep --count 40"
+deep="check --search --candidate capsule --pair cylinder-sphere --class general-deep --count 40"
 expect 1 . $deep --save "$folder/found"
 one="--candidates reference --count 1"
-for command in candidates --help --version --manual "--completion bash" "replay $rim --candidates reference" \
+for command in "list candidates" --help --version --manual "--completion bash" "replay $rim --candidates reference" \
   "replay $rim --candidates reference --json" "replay $rim --emit bullet" \
-  "solve $folder/line.jsonl --candidates reference" "certify $rim" "export $lying --count 1" \
+  "solve $folder/line.jsonl --candidates reference" "replay --certify $rim" "export $lying --count 1" \
   "score $folder/given.jsonl --name mine --out $folder/lost" "check --corpus $folder/found" \
   "simulate rolling --candidates reference --step 0.01" \
-  "search --candidate reference --pair cylinder-sphere --class cap --count 4" \
+  "check --search --candidate reference --pair cylinder-sphere --class cap --count 4" \
   "stability $rim $one --out $folder/lost" "report $lying $one --only scores --out $folder/lost"; do
   "$program" $command >/dev/full 2>"$folder/lost.log" </dev/null
   lost $? "touchstone $command > /dev/full"
@@ -47,7 +48,7 @@ done
 # A pipe whose reader has ended.
 exec 9> >(true)
 wait $!
-for command in candidates "solve $folder/line.jsonl --candidates reference"; do
+for command in "list candidates" "solve $folder/line.jsonl --candidates reference"; do
   "$program" $command >&- 2>"$folder/lost.log" </dev/null
   lost $? "touchstone $command >&-"
   (trap '' PIPE; exec "$program" $command >&9 2>"$folder/lost.log" </dev/null)

@@ -52,7 +52,7 @@ expect 2 '^error: input is ".*/lines.jsonl": must hold one configuration, not 2;
   replay "$folder/lines.jsonl"
 expect 2 'must hold one configuration, not 2' replay "$folder/lines.jsonl@1e-2/1/0"
 expect 2 'must hold one configuration, not 2' stability "$folder/lines.jsonl"
-expect 2 'must hold one configuration, not 2' certify "$folder/lines.jsonl"
+expect 2 'must hold one configuration, not 2' replay --certify "$folder/lines.jsonl"
 expect 2 '^error: --id is "three": must be one of one, 2$' replay "$folder/lines.jsonl" --id three
 expect 2 '^error: --id is "one": must be of a line of a file$' replay $rim --id one
 expect 2 'nosuch.jsonl.*there is no such file' replay "$folder/nosuch.jsonl" --id one
@@ -61,6 +61,10 @@ also '"id":"one"'
 expect 0 '"radius":2' replay "$folder/lines.jsonl" --id 2 --candidates reference --json
 also '"id":"2"' "replay $folder/lines.jsonl --id 2"
 expect 0 '^// Asked .*lines.jsonl, id 2$' replay "$folder/lines.jsonl" --id 2 --emit bullet
+sed 's/"id":2/"id":null/' "$folder/lines.jsonl" >"$folder/null.jsonl"
+expect 0 '"radius":2' replay "$folder/null.jsonl" --id null --candidates reference --json
+sed 's/"id":2/"id":[2]/' "$folder/lines.jsonl" >"$folder/list.jsonl"
+expect 2 '^error: id is \[2\]: must be a string, a number, true, false or null' replay "$folder/list.jsonl" --id one
 head -n 1 "$folder/lines.jsonl" >"$folder/line.jsonl"
 expect 0 '^one$' replay "$folder/line.jsonl" --candidates reference
 cat "$folder/line.jsonl" "$folder/line.jsonl" >"$folder/twice.jsonl"
@@ -99,9 +103,9 @@ expect 2 '^error: --.* is given with --.*: must stand without it' replay $rim --
 # A file's name cannot become a line of a program, or of what is printed.
 lines="$folder/$(printf 'x\n#error\n').json"
 cp "$folder/saved.json" "$lines"
-for way in "" "--emit bullet"; do
+for way in "--candidates bullet" "--emit bullet"; do
   # shellcheck disable=SC2086
-  expect 0 . replay "$lines" --candidates bullet $way
+  expect 0 . replay "$lines" $way
   ! grep -q '^#error' <<<"$printed" || failed "a file's name is a line of its own with replay $way"
 done
 

@@ -72,7 +72,7 @@ cmp -s "$r" "$folder/kept.json" || failed "a page replaces the report that it is
 expect 2 'none.json.*could not be opened' compare "$r" "$folder/none.json"
 echo '<testsuites/>' >"$folder/junit.xml"
 expect 2 'junit.xml.*is no JSON' compare "$folder/junit.xml" "$r"
-"$program" certify $rim >"$folder/proof.json"
+"$program" replay --certify $rim >"$folder/proof.json"
 expect 2 'proof.json": must be the report.json of touchstone report, but has schema "touchstone-cert' \
   compare "$folder/proof.json" "$r"
 expect 0 . campaign $lying --count 1 --candidates reference --out "$folder/c"

@@ -18,15 +18,15 @@ expect 0 'ode+touchstone' simulate lying --engine ode --out "$folder/simulated"
 grep -q '"cure"' "$folder/simulated/engines.json" || failed "no engines.json"
 expect 2 '--engine.*must be one of bullet, ' simulate lying --engine havok
 expect 2 'must be one number with --engine' simulate lying --engine ode --step 0.01,0.02
-expect 2 'no choice of --candidates' simulate lying --engine ode --candidates bullet
+expect 2 '^error: --candidates is given with --engine: must stand without it' simulate lying --engine ode --candidates bullet
 expect 2 'is given with --.*: must stand without it' simulate lying --engine ode --record "$folder/recorded.jsonl"
 
 # What belongs to experiments alone, to scenes alone, to a recording alone.
 expect 2 '^error: --disturbance is given: must be with scene files, robots or worlds' simulate rolling --disturbance 2
 expect 2 '^error: --drive is given: must be with scene files, robots or worlds' simulate rolling --drive wheel=1
 expect 2 '^error: --step is given: must be with experiments, not with scene files' simulate "$pedestal" --step 0.01
-expect 2 '^error: --count is given: must be with --record' simulate "$pedestal" --count 5
-expect 2 '^error: --seed is given: must be with --record or --disturbance' simulate "$pedestal" --seed 5
+expect 2 '^error: --count is given: must stand beside --record' simulate "$pedestal" --count 5
+expect 2 '^error: --seed is given: must stand beside --record or --disturbance' simulate "$pedestal" --seed 5
 expect 2 '--record.*needs scene files' simulate --record "$folder/recorded.jsonl"
 expect 2 '--record' simulate "$can" --record /proc/none/recorded.jsonl
 expect 2 'is given with --record: must stand without it' simulate "$can" --record "$folder/r.jsonl" --out "$folder"
@@ -46,7 +46,7 @@ expect 0 '^pedestal, capsule, disturbance 2 of seed 3$' \
 for name in fcl-distance libccd-gjk; do
   expect 2 "^error: candidate is \"$name\": must have a routine for cylinder-plane" simulate "$can" --candidates $name
   expect 2 "^error: candidate is \"$name\": must have a routine for cylinder-plane" \
-    render "$can" --contacts $name --out "$folder/render"
+    simulate "$can" --contacts $name --povray "$folder/render"
 done
 expect 0 'can: 3 of 72 configurations' simulate "$can" --count 3 --record "$folder/recorded.jsonl"
 expect 0 '"id":"can/can and ground/' solve --candidates reference "$folder/recorded.jsonl"
@@ -90,12 +90,15 @@ expect 0 'warning: .*link left: its inertia, of which one principal moment is la
   simulate "$folder/placeholder.urdf" --duration 0.1
 
 # Frames.
-expect 2 '--every' render "$can" --every 0
-expect 2 '--contacts is "no-such-engine": must be one of reference' render "$can" --contacts no-such-engine
-expect 0 '^1 frame\. ' render "$can" --every 1 --out "$folder/frame"
-expect 0 '4 frames' render "$can" --every 0.1 --out "$folder/frames"
+expect 2 '--every' simulate "$can" --povray "$folder/frame" --every 0
+expect 2 '^error: --every is given: must stand beside --povray' simulate "$can" --every 0.1
+expect 2 '^error: --povray is ".*": must be with one scene file' simulate "$can" "$can" --povray "$folder/frame"
+expect 2 '--contacts is "no-such-engine": must be one of reference' \
+  simulate "$can" --povray "$folder/frame" --contacts no-such-engine
+expect 0 '^1 frame\. ' simulate "$can" --every 1 --povray "$folder/frame"
+expect 0 '4 frames' simulate "$can" --every 0.1 --povray "$folder/frames"
 [ -s "$folder/frames/frame-00004.inc" ] || failed "no frame"
-expect 0 '2 frames' render "$can" --every 0.2 --out "$folder/frames"
+expect 0 '2 frames' simulate "$can" --every 0.2 --povray "$folder/frames"
 [ ! -e "$folder/frames/frame-00003.inc" ] || failed "frames of an earlier run are left"
 
 finish

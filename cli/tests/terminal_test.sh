@@ -29,10 +29,10 @@ broken="check --candidate bullet --pair cylinder-box,cylinder-sphere --class edg
 "$program" $broken --law agreement --save "$folder/known" >/dev/null
 "$program" report $lying --count 1 --candidates reference,bullet --only scores --out "$folder/old" >/dev/null 2>&1
 sed 's/"max": [0-9.e-]*/"max": 0.1/' "$folder/old/report.json" >"$folder/worse.json"
-commands=(candidates "classes cylinder-box" "$replayed" "$broken" "check --known $folder/known"
+commands=("list candidates" "list classes cylinder-box" "$replayed" "$broken" "check --known $folder/known"
   "compare $folder/old/report.json $folder/worse.json"
   "simulate rolling --candidates reference,capsule-circumscribed --step 0.01" "simulate lying --engine ode"
-  "search --candidate bullet --pair cylinder-cylinder --class perpendicular-t-centred+turned --count 4"
+  "check --search --candidate bullet --pair cylinder-cylinder --class perpendicular-t-centred+turned --count 4"
   "stability $rim --candidates reference --count 1 --out $folder/s"
   "choose $can --candidates capsule --disturbances 1 --out $folder/s"
   "report $lying --count 1 --candidates reference,bullet --only scores,timing --out $folder/s"
@@ -43,7 +43,7 @@ for command in "${commands[@]}"; do
   wide=$(wider_than 40 "$(grep -v '[^ ]\{30\}' <<<"$shown")")
   [ -z "$wide" ] || failed "$command is wider than COLUMNS=40: $wide"
 done
-for command in candidates "classes cylinder-box"; do
+for command in "list candidates" "list classes cylinder-box"; do
   wide=$(wider_than 40 "$(on_terminal 40 "$command" | grep -v '[^ ]\{30\}')")
   [ -z "$wide" ] || failed "$command is wider than a terminal of 40 columns: $wide"
 done

@@ -15,6 +15,7 @@
 #include "properties/files/disk.hpp"
 #include "properties/files/given_text.hpp"
 #include "properties/files/strict_json.hpp"
+#include "properties/given_orientation.hpp"
 #include "properties/identity.hpp"
 #include "properties/motions/motion.hpp"
 #include "reference/invalid_input.hpp"
@@ -102,18 +103,64 @@ Shape shape_from_json(const json& value, const std::string& path) {
                      "must be \"cylinder\", \"plane\", \"sphere\", \"capsule\" or \"box\"");
 }
 
+namespace {
+
+Eigen::Quaterniond quaternion_from_json(const json& value, const std::string& field) {
+  const auto q = numbers<4>(value, field);
+  return {q[0], q[1], q[2], q[3]};
+}
+
+Eigen::Matrix3d matrix_from_json(const json& value, const std::string& field) {
+  if (!value.is_array() || value.size() != 3) {
+    throw InvalidInput(field, shown(value), "must be an array of 3 rows of 3 numbers");
+  }
+  Eigen::Matrix3d matrix;
+  for (int i = 0; i < 3; ++i) matrix.row(i) = vector(value[i], fmt::format("{}[{}]", field, i));
+  return matrix;
+}
+
+Vec3 axis_from_json(const json& value, const std::string& field) {
+  if (value.is_array()) return vector(value, field);
+  if (value == "x") return Vec3::UnitX();
+  if (value == "y") return Vec3::UnitY();
+  if (value == "z") return Vec3::UnitZ();
+  throw InvalidInput(field, shown(value),
+                     "must be \"x\", \"y\", \"z\" or an array of 3 numbers, the direction of "
+                     "the body's z in the world");
+}
+
+/// In one of three ways, or not turned.
+Eigen::Quaterniond orientation_from_json(const json& pose, const std::string& path) {
+  std::string way;
+  for (const char* name : {"orientation", "rotation", "axis"}) {
+    if (!pose.contains(name)) continue;
+    if (!way.empty()) {
+      throw InvalidInput(path + '.' + name, shown(pose[name]), "must be left out beside " + way);
+    }
+    way = name;
+  }
+  if (way.empty()) return Eigen::Quaterniond::Identity();
+  const json& value = pose[way];
+  const std::string field = path + '.' + way;
+  if (way == "orientation") return quaternion_from_json(value, field);
+  if (way == "rotation") {
+    const Eigen::Matrix3d rotation = matrix_from_json(value, field);
+    return at_path(path, [&] { return orientation_of(rotation); });
+  }
+  const Vec3 axis = axis_from_json(value, field);
+  return at_path(path, [&] { return orientation_along(axis); });
+}
+
+}  // namespace
+
 Pose pose_from_json(const json& value, const std::string& path) {
   require_object(value, path);
-  refuse_others(value, {"position", "orientation"}, path);
+  refuse_others(value, {"position", "orientation", "rotation", "axis"}, path);
   Vec3 position = Vec3::Zero();
-  Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();
   if (value.contains("position")) {
     position = vector(value["position"], path + ".position");
   }
-  if (value.contains("orientation")) {
-    const auto q = numbers<4>(value["orientation"], path + ".orientation");
-    orientation = Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
-  }
+  const Eigen::Quaterniond orientation = orientation_from_json(value, path);
   return at_path(path, [&] { return Pose(position, orientation); });
 }
 
@@ -138,19 +185,16 @@ GivenConfiguration configuration_from_json(const json& value) {
 
 namespace {
 
-/// The id that a line gives itself, as text; empty for one without.
-std::string id_of(const json& line) {
-  if (!line.is_object() || !line.contains("id")) return "";
-  const json& id = line["id"];
-  return id.is_string() ? id.get<std::string>() : id.dump();
-}
+/// Empty for a line without an id.
+std::string id_or_none(const json& line) { return line.contains("id") ? id_of(line) : ""; }
 
 /// "c1, c2 and 7 more"
 std::string ids_of(const std::vector<json>& lines) {
   constexpr std::size_t max_named = 20, max_length = 60;
   std::vector<std::string> ids;
   for (const json& line : lines) {
-    if (const std::string id = id_of(line); !id.empty()) ids.push_back(printable(id, max_length));
+    if (const std::string id = id_or_none(line); !id.empty())
+      ids.push_back(printable(id, max_length));
   }
   const std::size_t unnamed = ids.size() - std::min(ids.size(), max_named);
   ids.resize(ids.size() - unnamed);
@@ -168,7 +212,7 @@ const json& chosen(const std::vector<json>& lines, const std::string& source,
                        fmt::format("must hold one configuration, not {}", lines.size()) +
                            (ids.empty() ? "" : "; touchstone replay takes --id of " + ids));
   }
-  const auto has_id = [&](const json& line) { return id_of(line) == *id; };
+  const auto has_id = [&](const json& line) { return id_or_none(line) == *id; };
   const auto count = std::count_if(lines.begin(), lines.end(), has_id);
   if (count == 1) return *std::find_if(lines.begin(), lines.end(), has_id);
   throw InvalidInput("--id", '"' + *id + '"',
@@ -185,7 +229,7 @@ Subject subject_of(const std::string& text, const std::string& source,
   const bool is_wrapped = line.contains("configuration");
   return {source, "",
           configuration_from_json(is_wrapped ? line["configuration"] : line).configuration,
-          id_of(line)};
+          id_or_none(line)};
 }
 
 }  // namespace

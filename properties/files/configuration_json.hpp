@@ -29,7 +29,9 @@ Configuration configuration_from_text(const std::string& text, const std::string
 
 /// {"shape": "cylinder", "radius": …}. `path` names the object in errors, which are InvalidInput.
 Shape shape_from_json(const nlohmann::json& value, const std::string& path);
-/// {"position": …, "orientation": …}; either may be missing.
+/// {"position": …, "orientation": quaternion w, x, y, z}; either may be missing. In place of the
+/// orientation there may be "rotation", a matrix by its rows, or "axis", the direction of the
+/// body's z in the world: "x", "y", "z" or a vector (given_orientation.hpp).
 Pose pose_from_json(const nlohmann::json& value, const std::string& path);
 
 /// Shortest decimals that give the same doubles back.

@@ -381,6 +381,21 @@ TEST(ConfigurationJson, MissingPoseIsTheIdentity) {
   EXPECT_EQ(c.pose_b.orientation().w(), 1);
 }
 
+TEST(ConfigurationJson, ARotationOrAnAxisStandsInPlaceOfTheQuaternion) {
+  const auto quaternion = [](const char* way, const char* value) {
+    json line = box_configuration();
+    line["pose_a"].erase("orientation");
+    line["pose_a"][way] = json::parse(value);
+    return configuration_from_json(line).configuration.pose_a.orientation().coeffs();
+  };
+  const Eigen::Vector4d to_y(-1, 0, 0, 1), to_x(0, 1, 0, 1);  // x, y, z, w
+  EXPECT_EQ(quaternion("axis", "\"y\""), to_y);
+  EXPECT_EQ(quaternion("axis", "[0, \"0x1p-1\", 0]"), to_y);
+  EXPECT_EQ(quaternion("axis", "\"x\""), to_x);
+  EXPECT_EQ(quaternion("axis", "\"z\""), Eigen::Vector4d(0, 0, 0, 1));
+  EXPECT_EQ(quaternion("rotation", "[[1, 0, 0], [0, 0, 1], [0, -1, 0]]"), to_y) << "by its rows";
+}
+
 TEST(ConfigurationJson, EitherBodyMayBeTheCylinder) {
   json line = box_configuration();
   std::swap(line["a"], line["b"]);
@@ -417,7 +432,16 @@ TEST(ConfigurationJson, NamesTheFieldThatIsWrong) {
       {"/pose_a/orientation", "[0,0,0,0]", "pose_a.orientation"},
       {"/pose_a/orientation", "[1,0,0]", "pose_a.orientation"},
       {"/pose_a/position/2", "\"inf\"", "pose_a.position[2]"},
-      {"/pose_a/rotation", "[1,0,0,0]", "pose_a.rotation"},
+      {"/pose_a/rotation", "[[1,0,0],[0,1,0],[0,0,1]]", "pose_a.rotation"},  // beside another
+      {"/pose_a/turn", "1", "pose_a.turn"},
+      {"/pose_b", R"({"axis":"y","rotation":[[1,0,0],[0,1,0],[0,0,1]]})", "pose_b.axis"},
+      {"/pose_b", R"({"axis":"up"})", "pose_b.axis"},
+      {"/pose_b", R"({"axis":[0,0,0]})", "pose_b.axis"},
+      {"/pose_b", R"({"axis":[0,0,null]})", "pose_b.axis[2]"},
+      {"/pose_b", R"({"rotation":[1,0,0,0]})", "pose_b.rotation"},
+      {"/pose_b", R"({"rotation":[[1,0,0],[0,1],[0,0,1]]})", "pose_b.rotation[1]"},
+      {"/pose_b", R"({"rotation":[[1,0,0],[0,1,0],[0,0,"x"]]})", "pose_b.rotation[2][2]"},
+      {"/pose_b", R"({"rotation":[[1,0,0],[0,1,0],[0,0,2]]})", "pose_b.rotation"},
       {"/pose_b", "[]", "pose_b"},
       {"/pose_c", "{}", "pose_c"},
   };

@@ -54,6 +54,13 @@ std::string string(const json& value, const std::string& field) {
   return value.get<std::string>();
 }
 
+std::string id_of(const json& object) {
+  const json& id = member(object, "id", "");
+  if (id.is_string()) return id.get<std::string>();
+  if (id.is_primitive()) return id.dump();
+  throw InvalidInput("id", shown(id), "must be a string, a number, true, false or null");
+}
+
 const json& array(const json& value, const std::string& field) {
   if (!value.is_array()) throw InvalidInput(field, shown(value), "must be an array");
   return value;

@@ -32,7 +32,8 @@ nlohmann::json parse_json(std::string_view text, const std::string& source);
 /// otherwise of the first line ("line 7") that is none.
 std::vector<nlohmann::json> parse_json_lines(const std::string& text, const std::string& source);
 
-/// Lines of JSON that come one by one, of any number; blank ones do not count.
+/// Lines of JSON that come one by one, of any number; blank ones do not count. A copy keeps the
+/// line that it is at.
 class JsonLines {
  public:
   explicit JsonLines(std::istream& in) : in_(in) {}
@@ -70,6 +71,11 @@ std::uint64_t whole_number(const nlohmann::json& value, const std::string& field
                            std::uint64_t max = UINT64_MAX);
 
 std::string string(const nlohmann::json& value, const std::string& field);
+
+/// The text of the id that an object gives itself by its member "id", by which it is asked for and
+/// told from others: a string as it is; a number, true, false or null as JSON writes it, so that 0
+/// and "0" are one id.
+std::string id_of(const nlohmann::json& object);
 
 /// The value itself, which is an array.
 const nlohmann::json& array(const nlohmann::json& value, const std::string& field);

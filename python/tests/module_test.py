@@ -60,6 +60,18 @@ class Values(unittest.TestCase):
         self.assertEqual(Pose((0, 0, 0), (0, 0, 0, 2)).orientation.tolist(), [0, 0, 0, 2])
         self.assertNotEqual(Pose((0, 0, 0), (2, 0, 0, 0)), Pose())
 
+    def test_a_rotation_or_an_axis_stands_in_place_of_the_orientation(self):
+        quarter = [[1, 0, 0], [0, 0, 1], [0, -1, 0]]
+        self.assertEqual(Pose((0, 0, 1), rotation=quarter), Pose((0, 0, 1), (1, -1, 0, 0)))
+        self.assertEqual(Pose(rotation=numpy.array(quarter)).rotation.tolist(), quarter)
+        self.assertEqual(Pose(axis=(0, 4, 0)), Pose((0, 0, 0), (1, -1, 0, 0)))
+        for make, text in [(lambda: Pose(rotation=2 * numpy.eye(3)), "rotation is .*: must be a rotation"),
+                           (lambda: Pose(axis=(0, 0, 0)), "axis is .*: must not be the zero vector"),
+                           (lambda: Pose(axis=(0, 0, 1), rotation=quarter), "axis is given: must stand"),
+                           (lambda: Pose((0, 0, 0), LYING, axis=(0, 0, 1)), "axis is given: must stand")]:
+            with self.assertRaisesRegex(ValueError, text):
+                make()
+
     def test_arrays_of_values_cannot_be_written_to(self):
         for array in (Pose().position, Pose().orientation, Pose().rotation, FLOOR.normal,
                       Box((1, 2, 3)).half_extents):
@@ -419,7 +431,7 @@ class Arguments(unittest.TestCase):
             "configurations": [], "answers": [], "identity": "cylinder-plane/lying/1/0",
             "function": touchstone.contact, "name": "f", "pairs": ["cylinder-plane"],
             "groups": None, "candidates": [], "seconds": 1, "workers": 1, "version": "",
-            "settings": ""}
+            "settings": "", "rotation": None, "axis": None}
 
     @classmethod
     def calls(cls):

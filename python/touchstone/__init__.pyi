@@ -45,7 +45,8 @@ class Box:
 Shape: TypeAlias = Cylinder | Plane | Sphere | Capsule | Box
 
 class Pose:
-    def __init__(self, position: ArrayLike = ..., orientation: ArrayLike = ...) -> None: ...
+    def __init__(self, position: ArrayLike = ..., orientation: ArrayLike = ...,
+                 rotation: ArrayLike | None = ..., axis: ArrayLike | None = ...) -> None: ...
     @property
     def position(self) -> Floats: ...
     @property

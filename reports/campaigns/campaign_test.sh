@@ -74,7 +74,7 @@ done
 for shard in $(shuf -i 1-7 --random-source="$program"); do
   campaign --workers 1 --shard "$shard/7" --out seven >/dev/null 2>&1 || fail "shard $shard/7"
 done
-"$program" merge $(ls seven/shard-*.bin | shuf --random-source="$program") --out seven-merged \
+"$program" campaign --merge $(ls seven/shard-*.bin | shuf --random-source="$program") --out seven-merged \
   >/dev/null || fail "merge"
 same seven-merged "seven shards in random order"
 cmp -s whole/shard-1-of-1.bin seven-merged/shard-1-of-1.bin || fail "another merged shard file"
@@ -85,7 +85,7 @@ few --out few >/dev/null 2>&1 || fail "few configurations of many classes"
 for shard in 1 2 3; do
   few --workers 2 --shard "$shard/3" --out few3 >/dev/null 2>&1 || fail "shard $shard/3 of few"
 done
-"$program" merge few3 --out few3-merged >/dev/null || fail "merge of few"
+"$program" campaign --merge few3 --out few3-merged >/dev/null || fail "merge of few"
 cmp -s few/campaign.json few3-merged/campaign.json || fail "another result: few in three shards"
 mpirun --oversubscribe -n 2 "$program" campaign --group everyday --candidates reference,bullet \
   --count 40 --out few-mpi >/dev/null 2>&1 || fail "mpirun of few"
@@ -102,21 +102,21 @@ cmp -s few/campaign.json few-killed/campaign.json || fail "another result: few, 
 
 # Merging refuses what does not belong together; what is missing may be run later.
 mkdir empty
-refused 'both hold' "$program" merge seven whole --out none
-refused 'are missing' "$program" merge seven/shard-[1-5]*.bin --out none
+refused 'both hold' "$program" campaign --merge seven whole --out none
+refused 'are missing' "$program" campaign --merge seven/shard-[1-5]*.bin --out none
 refused 'seed is 1, not 2' campaign --seed 2 --out whole --resume
 refused 'cut in another way' campaign --shard 1/3 --out seven
 refused 'already holds a campaign' campaign --out whole
-refused 'already holds a campaign' "$program" merge seven --out whole
-refused 'cut in another way' "$program" merge seven --out seven
+refused 'already holds a campaign' "$program" campaign --merge seven --out whole
+refused 'cut in another way' "$program" campaign --merge seven --out seven
 mkdir renamed
 cp seven/shard-1-of-7.bin renamed/shard-2-of-7.bin
 refused 'shard-2-of-7.bin" is shard 1/7' campaign --shard 2/7 --out renamed --resume
-refused 'must hold shard files' "$program" merge empty --out none
-refused 'damaged, cut short, or something else' "$program" merge mpi.log --out none
+refused 'must hold shard files' "$program" campaign --merge empty --out none
+refused 'damaged, cut short, or something else' "$program" campaign --merge mpi.log --out none
 refused '--shard' campaign --shard 8/7 --out none
 refused '--checkpoint' campaign --checkpoint 0 --out none
-"$program" merge seven/shard-[1-5]*.bin --partial --out partial >/dev/null || fail "merge --partial"
+"$program" campaign --merge seven/shard-[1-5]*.bin --partial --out partial >/dev/null || fail "merge --partial"
 grep -q '"complete": false' partial/campaign.json || fail "a partial result is not marked"
 campaign --out partial --resume >/dev/null 2>&1
 same partial "a partial merge that was finished"

@@ -102,12 +102,12 @@ void Merge::add(const ShardState& part, const std::string& file) {
 }
 
 ShardState Merge::whole(bool may_be_partial) const {
-  if (sum_.empty()) throw InvalidInput("input", "empty", "must hold shard files of a campaign");
+  if (sum_.empty()) throw InvalidInput("--merge", "empty", "must hold shard files of a campaign");
   const ShardState& sum = sum_.front();
   const UnitSet missing = Shard{}.units(sum.plan.cut) - sum.done;
   if (!missing.empty() && !may_be_partial) {
     throw InvalidInput(
-        "input", "incomplete",
+        "--merge", "incomplete",
         fmt::format("{} of {} are missing, the first of them {}; give all parts, "
                     "finish them with --resume, or take what there is with --partial",
                     configurations(sum.plan.cut, missing),
@@ -120,7 +120,7 @@ ShardState Merge::whole(bool may_be_partial) const {
 ShardState merge(const std::vector<std::filesystem::path>& inputs, bool may_be_partial) {
   Merge merge;
   const auto add = [&](const std::filesystem::path& file) {
-    merge.add(read_shard(file, "input"), file.string());
+    merge.add(read_shard(file, "--merge"), file.string());
   };
   for (const auto& input : inputs) {
     if (!is_folder(input)) {
@@ -129,7 +129,7 @@ ShardState merge(const std::vector<std::filesystem::path>& inputs, bool may_be_p
     }
     const auto files = shard_files(input);
     if (files.empty()) {
-      throw InvalidInput("input", '"' + input.string() + '"', "must hold shard files");
+      throw InvalidInput("--merge", '"' + input.string() + '"', "must hold shard files");
     }
     for (const auto& file : files) add(file);
   }

@@ -257,9 +257,9 @@ std::string evidence_file(const PairsChoice& choice, std::size_t pair,
 std::string render_command(const Choice& choice, const SceneRun& run) {
   std::vector<std::string> names;
   for (const Candidate* m : run.models) names.push_back(m->name);
-  std::string command =
-      fmt::format("{} render {} --contacts {}", program_name(names), choice.arguments,
-                  shell_quoted(fmt::format("{}", fmt::join(choice.contacts_of(run), ","))));
+  std::string command = fmt::format(
+      "{} simulate {} --povray out/render --contacts {}", program_name(names), choice.arguments,
+      shell_quoted(fmt::format("{}", fmt::join(choice.contacts_of(run), ","))));
   if (run.disturbance == 0) return command;
   return command + fmt::format(" --disturbance {} --seed {}", run.disturbance, choice.trials.seed);
 }

@@ -249,8 +249,9 @@ TEST(ChoiceText, AndJsonNameTheCommandThatMakesAFailureAgain) {
     const SceneRun& run = choice.runs[i];
     const std::string which =
         run.disturbance == 0 ? "" : fmt::format(" --disturbance {} --seed 1", run.disturbance);
-    EXPECT_EQ(data["runs"][i]["render"], fmt::format("./touchstone render can.json --contacts {}{}",
-                                                     shell_quoted(run.models[0]->name), which));
+    EXPECT_EQ(data["runs"][i]["render"],
+              fmt::format("./touchstone simulate can.json --povray out/render --contacts {}{}",
+                          shell_quoted(run.models[0]->name), which));
   }
 }
 

@@ -382,7 +382,7 @@ const std::vector<Sentence>& sentences() {
        [](const Known&, const Numbers& x) { EXPECT_TRUE(x[0] >= 0 && x[1] >= 0); }},
       {"  the bodies overlap, and the depth is no less than " N "\\.",
        [](const Known& k, const Numbers& x) { EXPECT_LE(x[0], -k.distance() + k.rounding); }},
-      {"  The depth to 30 digits is what touchstone certify proves\\.",
+      {"  The depth to 30 digits is what touchstone replay --certify proves\\.",
        [](const Known&, const Numbers&) {}},
       {"Along the engine's normal the clearance is " N ", along n it is " N "\\.",
        [](const Known& k, const Numbers& x) {

@@ -25,14 +25,6 @@ constexpr std::size_t max_shown_id = 100;
 
 std::string shown_id(const std::string& id) { return '"' + printable(id, max_shown_id) + '"'; }
 
-/// The id of a line: a string, or a number as it is written; 0 and "0" are one id.
-std::string id_of(const json& line) {
-  const json& id = member(line, "id", "");
-  if (id.is_number()) return id.dump();
-  if (id.is_string()) return string(id, "id");
-  throw InvalidInput("id", shown(id), "must be a string or a number");
-}
-
 }  // namespace
 
 ConfigurationFile::ConfigurationFile(std::istream& in) {

@@ -50,8 +50,7 @@ class ConfigurationFile {
     GivenConfiguration given;
   };
   ConfigurationFile() = default;
-  /// Reads JSON Lines with an "id" each, a string or a number. Throws InvalidInput that names the
-  /// line.
+  /// Reads JSON Lines with an "id" each. Throws InvalidInput that names the line.
   explicit ConfigurationFile(std::istream& in);
 
   /// Null without such an id.

@@ -103,7 +103,7 @@ TEST(GivenAnswers, EveryBadLineIsToldAndTheOthersCount) {
        "id is missing"},
       {R"({"id":[7],"status":"none"})"
        "\n",
-       "id is [7]: must be a string or a number"},
+       "id is [7]: must be a string, a number, true, false or null"},
       {R"({"id":7,"status":"none"})"
        "\n",
        "id is \"7\": identity is \"7\": must read pair/class/seed/index"},
@@ -222,12 +222,12 @@ TEST(GivenConfigurations, HaveIdsThatDifferAndAnswersToAll) {
 }
 
 // Whatever `solve` takes and gives back names a configuration here, too.
-TEST(GivenConfigurations, MayHaveNumbersAsIds) {
+TEST(GivenConfigurations, MayHaveAnyScalarAsId) {
   const auto named = [](std::string lines, const std::string& id) {
     const std::string first = R"("id":"p1")";
     return lines.replace(lines.find(first), first.size(), R"("id":)" + id);
   };
-  for (const char* id : {"0", "-7", "1.5", "18446744073709551615", "\"0\""}) {
+  for (const char* id : {"0", "-7", "1.5", "18446744073709551615", "\"0\"", "true", "null"}) {
     std::istringstream in(named(can_on_box, id));
     const ConfigurationFile file(in);
     const ReadAnswers r =
@@ -238,7 +238,7 @@ TEST(GivenConfigurations, MayHaveNumbersAsIds) {
   std::istringstream in(named(can_on_box, "[0]"));
   EXPECT_THAT(
       [&] { ConfigurationFile file(in); },
-      ThrowsMessage<InvalidInput>(HasSubstr("line 1.id is [0]: must be a string or a number")));
+      ThrowsMessage<InvalidInput>(HasSubstr("line 1.id is [0]: must be a string, a number, true")));
 }
 
 TEST(ReportOfGivenAnswers, TellsItsConfigurationsFromOthers) {

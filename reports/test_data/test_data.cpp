@@ -3,7 +3,6 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <map>
 #include <stdexcept>
 #include <vector>
 
@@ -80,7 +79,6 @@ void make_test_data(const Campaign& campaign, const std::function<void(const Tes
   const std::vector<Identity> all = identities(campaign);
   constexpr std::uint64_t unit = 32;
   Progress progress("configurations", all.size());
-  std::map<std::uint64_t, std::string> waiting;  // units that came before their turn
   std::uint64_t next = 0;
   const auto last_of = [&](std::uint64_t first) {
     return std::min<std::uint64_t>(first + unit, all.size());
@@ -94,26 +92,17 @@ void make_test_data(const Campaign& campaign, const std::function<void(const Tes
     }
     progress.update(next);
   };
-  stream_from_processes((all.size() + unit - 1) / unit, campaign.workers,
-                        [&](std::uint64_t number) {
-                          BytesOut out;
-                          for (std::uint64_t i = number * unit; i < last_of(number * unit); ++i) {
-                            const Configuration c = make_configuration(all[i]);
-                            out(c, truth_of(all[i], c));
-                          }
-                          return out.take();
-                        },
-                        [&](std::uint64_t number) { return to_string(all[number * unit]); },
-                        [&](std::uint64_t number, std::string bytes) {
-                          waiting[number] = std::move(bytes);
-                          for (auto first = waiting.begin();
-                               first != waiting.end() && first->first * unit == next;
-                               first = waiting.begin()) {
-                            take_unit(first->second);
-                            waiting.erase(first);
-                          }
-                        },
-                        [] { return !interrupted(); });
+  const auto make_unit = [&](std::uint64_t number) {
+    BytesOut out;
+    for (std::uint64_t i = number * unit; i < last_of(number * unit); ++i) {
+      const Configuration c = make_configuration(all[i]);
+      out(c, truth_of(all[i], c));
+    }
+    return out.take();
+  };
+  stream_in_order((all.size() + unit - 1) / unit, campaign.workers, make_unit,
+                  [&](std::uint64_t number) { return to_string(all[number * unit]); }, take_unit,
+                  [] { return !interrupted(); });
 }
 
 }  // namespace touchstone

@@ -32,6 +32,10 @@ const char* contact_name(AnswerLimits::Contact contact);
 /// Error of the signed distance as a double (Enclosure::midpoint), metres, rounded up.
 double midpoint_error(const oracle::Enclosure& signed_distance);
 
+/// Components of a normal below this are written as zero: what is left of one that is zero depends
+/// on how the oracle has found the normal.
+inline constexpr double negligible_component = 1e-30;
+
 /// One configuration of a file of test data.
 struct TestDatum {
   Identity identity;

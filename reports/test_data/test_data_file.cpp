@@ -176,12 +176,10 @@ void put_fields(const TestDatum& d, CsvColumns columns, Fields& fields) {
   number("min_point_depth", d.limits.min_point_depth);
   fields.text("ties", ties_name(d.truth.ties));
   fields.lists_of(d.truth.normals.size());
-  // What is left of a component that is zero depends on how the oracle has found the normal.
-  constexpr double negligible = 1e-30;
   std::vector<double> normals;
   for (const auto& normal : d.truth.normals) append(normals, normal.n);
   for (double& x : normals) {
-    if (std::abs(x) < negligible) x = 0;
+    if (std::abs(x) < negligible_component) x = 0;
   }
   fields.vectors("normal", 3, normals);
   put_patches(d, columns, fields);

@@ -89,7 +89,7 @@ int write_povray(const SceneFile& file, const Trajectory& run, double every,
   const auto stride =
       std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(every / run.step)));
   remove_older(folder, "frame-", ".inc");
-  write_file(folder / "scene.pov", view(file.camera), "--out");
+  write_file(folder / "scene.pov", view(file.camera), "--povray");
   int count = 0;
   for (std::size_t i = 0; i < run.frames.size(); i += stride) {
     std::string text =
@@ -99,13 +99,13 @@ int write_povray(const SceneFile& file, const Trajectory& run, double every,
       text +=
           std::visit(Object{body.fixed}, body.shape) + ' ' + placed(run.frames[i][b].pose) + '\n';
     }
-    write_file(folder / fmt::format("frame-{:05}.inc", ++count), text, "--out");
+    write_file(folder / fmt::format("frame-{:05}.inc", ++count), text, "--povray");
   }
   write_file(folder / "scene.ini",
              fmt::format("Input_File_Name=scene.pov\nOutput_File_Type=N\nWidth=800\nHeight=600\n"
                          "Antialias=On\nQuality=9\nDisplay=Off\nInitial_Frame=1\nFinal_Frame={}\n",
                          count),
-             "--out");
+             "--povray");
   return count;
 }
 

@@ -46,7 +46,7 @@ void check_printable(const std::string& field, const std::string& name);
 
 /// Writes a run for POV-Ray 3.7: scene.pov (camera, light), frame-00001.inc, … (the bodies at
 /// intervals of `every` seconds), and scene.ini; `povray scene.ini` draws all frames. Returns the
-/// number of frames. Throws InvalidInput (field "--out") if a file cannot be written.
+/// number of frames. Throws InvalidInput (field "--povray") if a file cannot be written.
 int write_povray(const SceneFile& file, const Trajectory& run, double every,
                  const std::filesystem::path& folder);
 

@@ -142,6 +142,11 @@ std::vector<std::string> configuration_lines() {
       lines.push_back((lines.size() % 2 == 0 ? to_json(c) : to_hex_json(c)).dump());
     }
   }
+  for (const char* way : {R"("axis":"y")", R"("axis":[1e-300,"0x1p-3",-2])",
+                          R"("rotation":[[0.6,-0.8,0],[0.8,0.6,0],[0,0,1]])"}) {
+    lines.push_back(R"({"id":null,"a":{"shape":"cylinder","radius":1,"half_length":2},"pose_a":{)" +
+                    std::string(way) + R"(},"b":{"shape":"sphere","radius":1}})");
+  }
   return lines;
 }
 
