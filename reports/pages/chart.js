@@ -28,6 +28,13 @@ function drawChart(host, label, spec, onClick = () => {}) {
     reachByKeys(svg, onClick);
   });
 }
+// Words in place of a chart.
+function clearChart(host, words) {
+  if (host.chart) host.chart.finalize();
+  host.chart = null;
+  host.classList.remove('chart');
+  host.replaceChildren(words);
+}
 // Makes the symbols and bars of a chart one tab stop, within which arrow keys move. Left and right keep to a line, up and
 // down change to what other lines have nearby; where there are no lines, every mark is a neighbour.
 function reachByKeys(svg, onClick) {
@@ -65,6 +72,10 @@ const redrawn = [];
 function keepDrawn(draw) {
   redrawn.push(draw);
   draw();
+}
+function followChart(draw) {
+  followers.push(draw);
+  keepDrawn(draw);
 }
 let drawnWidth = innerWidth, redrawTimer;
 addEventListener('resize', () => {
@@ -148,10 +159,7 @@ function drawScatter(host, label, {height = 300, x, y, points, lines: given, lim
     ]}, onClick);
 }
 
-// The panel of a pair; that of all pairs, with the most marks, is as wide as the page.
-const pairPanel = (pair, place) => element('figure', {class: pair === 'all' ? 'whole' : ''},
-    element('figcaption', {}, pair === 'all' ? 'all pairs' : dashed(pair)), place);
-const panelHeight = pair => pair === 'all' && innerWidth > 640 ? 420 : 300;
+const panelHeight = () => innerWidth > 640 ? 420 : 300;
 
 // The candidates whose lines are shown, chosen by the buttons of any legend.
 const usual = ['reference', 'bullet', 'bullet-margin-0', 'ode', 'fcl', 'fcl-distance', 'libccd-mpr', 'mujoco', 'prism:16', 'capsule'];

@@ -38,14 +38,15 @@ function drawEngines({engines, experiments, results, step}) {
   const section = byId('engines'), of = (e, engine) => results.find(r => r.experiment === e.name && r.engine === engine.name);
   const count = cure => results.filter(r => r.cure === cure).length;
   section.hidden = false;
-  section.append(element('h2', {}, 'Inside the engines'), element('p', {},
+  section.append(element('p', {},
       `Each engine steps its own world, in steps of ${exponent(step)} s: its broad phase, its solver, its defaults; first with its own ` +
       'contacts, then with our routines installed by one call. A cell has the error before and after; held (green): within what the ' +
       'experiment resolves, and the body rests where it should. *: held once the engine’s solver is at its best, so that its defaults are what limits. ' +
       `Of ${results.length}, ${count('held')} are held, ${count('nearer')} at least ten times nearer, ${count('solver')} limited by the ` +
       `solver’s defaults, ${count('alike')} alike with both contacts, ${count('open')} open.`));
   const select = element('select', {id: 'engine-experiment'}), statement = element('p', {class: 'quiet'}), one = element('div', {class: 'scroll'});
-  const where = element('div', {});
+  const where = element('div', {}), inFull = fold('One experiment in each engine, in full',
+      element('p', {class: 'controls'}, element('label', {}, 'The experiment ', select)), statement, one, where);
   const show = () => {
     const e = experiments.find(x => x.name === select.value);
     statement.textContent = `${e.statement} Value: ${e.quantity}; on paper ${exponent(e.expected[0])}. ` +
@@ -56,7 +57,7 @@ function drawEngines({engines, experiments, results, step}) {
   };
   const rows = experiments.map(e => [rowHead(e.name), exponent(e.resolution[0]), ...engines.map(engine => {
     const cell = cureCell(of(e, engine), e);
-    whenPressed(cell, () => { select.value = e.name; show(); });
+    whenPressed(cell, () => { select.value = e.name; inFull.open = true; show(); });
     return cell;
   })]);
   select.append(...options(experiments.map(e => e.name)));
@@ -64,8 +65,7 @@ function drawEngines({engines, experiments, results, step}) {
   const settings = element('dl', {}, ...engines.flatMap(e => [element('dt', {}, `${e.name} ${e.version}`),
       element('dd', {}, `${e.settings}. Solver at its best: ${e.best_settings}.`)]));
   section.append(element('div', {class: 'scroll'}, table([textColumn('experiment'), 'resolves', ...engines.map(e => e.name)], rows,
-          'Error before and after')), element('h3', {}, element('label', {}, 'The experiment ', select)), statement, one, where,
-      element('h3', {}, 'How each engine was run'), settings);
+          'Error before and after')), inFull, fold('How each engine was run', settings));
   show();
 }
 

@@ -19,7 +19,8 @@ namespace touchstone {
 extern const std::string_view page_html, pages_css, page_js, table_js;
 extern const std::string_view report_html, compare_html, replay_html, choose_html, engines_html,
     motion_html;
-extern const std::string_view report_js, report_tables_js, report_charts_js, report_cases_js;
+extern const std::string_view report_js, report_failures_js, report_tables_js, report_charts_js,
+    report_method_js;
 extern const std::string_view compare_js, replay_js, stability_js, choose_js, engines_js, motion_js;
 extern const std::string_view bodies_js, view_js, chart_js, vega_js;
 
@@ -39,8 +40,8 @@ PageParts parts_of(Page page) {
               "How right, and how fast, are cylinder contacts?",
               report_html,
               true,
-              {bodies_js, view_js, stability_js, engines_js, report_js, report_tables_js,
-               report_charts_js, report_cases_js}};
+              {bodies_js, view_js, stability_js, engines_js, report_js, report_failures_js,
+               report_tables_js, report_charts_js, report_method_js}};
     case Page::comparison:
       return {"two reports compared", "What has changed?", compare_html, true, {compare_js}};
     case Page::replay:
@@ -48,7 +49,7 @@ PageParts parts_of(Page page) {
     case Page::stability:
       return {"stability of cylinder contacts",
               "How steady are cylinder contacts near degenerate poses?",
-              "<section id=\"stability\"></section>",
+              "<section id=\"stability\"><h2>Stability</h2></section>",
               true,
               {stability_js, "drawStabilityPage();\n"}};
     case Page::choice:

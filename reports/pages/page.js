@@ -57,6 +57,7 @@ const symbolSign = ({colour, symbol}) => shape('svg', {class: 'sign', viewBox: '
 const sign = name => symbolSign(markOf(name));
 // A candidate that does not run as native code is marked so wherever its name stands.
 const runsText = name => runs[name] ? ` (${runs[name]})` : '';
+const own = name => name === 'reference' ? ' (Touchstone’s own)' : '';
 const named = (name, ...rest) => element('span', {class: 'named'}, sign(name), name + runsText(name), ...rest);
 
 // Outcomes, in the order of legends; each has one colour everywhere, a variable of the style sheet.
@@ -87,9 +88,19 @@ const whole = x => x === null ? '–' : Math.round(x).toLocaleString('en');
 const cutShare = share => share === null ? '–' : (Math.floor(share * 100 + 1e-6) / 100).toFixed(2);
 const percent = share => share === 1 ? '100%' : (Math.floor(share * 1000 + 1e-6) / 10).toFixed(1) + '%';
 const dashed = pair => pair.replace('-', '–');
+const pairWords = pair => pair === 'all' ? 'all pairs' : dashed(pair);
+// "box" for "cylinder-box".
+const otherShape = pair => pair.replace('cylinder-', '');
+// A time in nanoseconds, for people.
+const duration = ns => ns === null ? '–' : ns < 999.5 ? `${whole(ns)} ns` : ns < 999500 ? `${exponent(ns / 1e3)} µs` : `${exponent(ns / 1e6)} ms`;
 
 // The number of configurations that a candidate has a routine for.
 const supported = r => r.count - (r.outcomes.unsupported || 0);
+// The share that agrees. Where a candidate was stopped after time-outs, what it was not asked counts against it: it agrees on
+// at least so many.
+const unasked = r => r.outcomes['not-asked'] || 0;
+const agreeing = r => ((r.outcomes.agree || 0) + (r.outcomes.unseen || 0)) / supported(r);
+const agreement = r => (unasked(r) ? '≥ ' : '') + percent(agreeing(r));
 // " (4 of 5 pairs)" beside a candidate in a row over all pairs that is over these alone.
 function coveredOf(summary, r) {
   if (!r || r.pair !== 'all') return '';
@@ -98,6 +109,9 @@ function coveredOf(summary, r) {
   return covered === ofPairs.length ? '' : ` (${covered} of ${ofPairs.length} pairs)`;
 }
 
+// What few ask for, folded; printed it is open.
+const fold = (title, ...children) => element('details', {}, element('summary', {}, title), ...children);
+addEventListener('beforeprint', () => { for (const d of document.querySelectorAll('details')) d.open = true; });
 // A command with a button that copies it.
 function command(text) {
   const copy = element('button', {type: 'button'}, 'Copy');
@@ -140,8 +154,8 @@ function roveButtons(host, buttons) {
   if (buttons.length) rove(host, buttons[0], (b, key) => ways[key] && buttons[Math.max(0, Math.min(buttons.length - 1, buttons.indexOf(b) + ways[key]))]);
 }
 
-// Groups of pose classes: one is shown at a time, for no number over all of them means anything. `grouped` holds what is
-// drawn anew when another is chosen.
+// What a page is about, chosen at its top: a group of pose classes, for no number over all of them means anything, and, where
+// a page offers them, a pair and a candidate. `followers` draw anew what depends on that.
 const groupMeanings = {
   everyday: 'sizes within 1:20, turned at random, shallow, resting or apart',
   degenerate: 'exact, near-exact and symmetric',
@@ -149,29 +163,34 @@ const groupMeanings = {
   recorded: 'as scenes have produced them',
   given: 'your own, from a file',
 };
-let group = null;
-const grouped = [];
-function keepGrouped(draw) {
-  grouped.push(draw);
+const chosen = {group: null}, choosers = [], followers = [];
+function follow(draw) {
+  followers.push(draw);
   draw();
 }
-function groupControl(host, groups) {
-  group = groups[0] ?? null;
-  host.hidden = group === null;
-  const meaning = element('span', {class: 'quiet wide'});
-  const buttons = groups.map(g => element('button', {type: 'button', value: g}, g));
-  const choose = chosen => {
-    group = chosen;
-    meaning.textContent = groupMeanings[group] ?? '';
-    for (const b of buttons) b.setAttribute('aria-pressed', b.value === group);
-  };
-  for (const b of buttons) b.addEventListener('click', () => { choose(b.value); for (const draw of grouped) draw(); });
-  const choice = element('span', {class: 'choice', role: 'toolbar', 'aria-label': 'Poses'}, ...buttons);
-  roveButtons(choice, buttons);
-  host.append(element('span', {}, 'Poses: '), choice, meaning);
-  choose(group);
+function choose(change) {
+  Object.assign(chosen, change);
+  for (const update of [...choosers, ...followers]) update();
 }
-const showGroup = name => byId('groups').querySelector(`button[value="${name}"]`).click();
+function offerGroups(groups) {
+  const host = byId('groups');
+  const buttons = groups.map(g => element('button', {type: 'button', value: g}, g));
+  const choice = element('span', {class: 'choice', role: 'toolbar', 'aria-label': 'Poses'}, ...buttons);
+  for (const b of buttons) b.addEventListener('click', () => choose({group: b.value}));
+  choosers.push(() => { for (const b of buttons) b.setAttribute('aria-pressed', b.value === chosen.group); });
+  roveButtons(choice, buttons);
+  host.hidden = groups.length === 0;
+  host.append(element('span', {class: 'wide'}, 'Poses: '), choice);
+  choose({group: groups[0] ?? null});
+}
+// A select box of [value, text] beside the groups; with one value there is nothing to choose.
+function offer(what, label, values, first = values[0]?.[0]) {
+  const list = element('select', {id: what, 'aria-label': label}, ...options(values));
+  list.addEventListener('change', () => choose({[what]: list.value}));
+  choosers.push(() => { list.value = chosen[what]; });
+  if (values.length > 1) byId('groups').append(element('label', {}, element('span', {class: 'wide'}, `${label}: `), list));
+  choose({[what]: first});
+}
 const onThemeChange = act => matchMedia('(prefers-color-scheme: dark)').addEventListener('change', act);
 
 // The tooltip, one for the page.
@@ -188,4 +207,10 @@ function explain(target, text) {
   target.classList.add('explained');
   for (const start of ['mouseenter', 'focusin']) target.addEventListener(start, show);
   for (const end of ['mouseleave', 'focusout']) target.addEventListener(end, hideTip);
+}
+// Goes to a section, whose title takes the keyboard there.
+function goTo(id) {
+  const title = byId(id).querySelector('h2');
+  title.scrollIntoView();
+  title.focus();
 }

@@ -1,23 +1,4 @@
-// The report's tables: worst errors, summary, pose classes, contact points, experiments, outcomes.
-const notAvailable = () => element('td', {class: 'quiet'}, '–');
-
-// The worst error of every candidate on every pair, by our pose classes and by Drake's protocol.
-const perPair = first => [textColumn(first), ...pairs.map(p => column(otherShape(p)))];
-
-function worstErrors() {
-  byId('worst-error-table').replaceChildren(table(perPair('candidate'),
-      candidates.map(name => [rowHead(named(name)), ...pairs.map(pair => worstErrorCell(summaryOf(pair, name)))]),
-      `Cylinder against …, ${group} poses: worst error, in sizes`));
-}
-function worstErrorCell(r) {
-  if (!r || supported(r) === 0) return notAvailable();
-  const worst = quantile(r.severity, 'max'), cell = element('td', {class: 'heat', style: heated(1 + Math.log10(worst) / 16)},
-      exponent(worst), r.outcomes.missed || lost(r) ? element('small', {}, `${whole((r.outcomes.missed || 0) + lost(r))} lost`) : null);
-  explain(cell, `${r.candidate}, ${dashed(r.pair)}\n${outcomesText(r)}\nworst error ${exponent(worst)}, 99th percentile ` +
-      `${exponent(quantile(r.severity, 'p99'))}\nClick for its worst cases`);
-  whenPressed(cell, () => showWorst(r.pair, r.candidate));
-  return cell;
-}
+// The report's tables: all numbers, Drake's protocol, pose classes, contact points, experiments, outcomes.
 
 const millimetres = metres => metres === null ? 'refuses' : `${exponent(1000 * metres)}`;
 function drakeProtocol() {
@@ -28,14 +9,14 @@ function drakeProtocol() {
       ...protocol.pairs.map(p => element('td', {}, millimetres(p.published[query]))));
   const rows = candidates.map(name => [rowHead(named(name)),
       ...protocol.pairs.map(p => drakeCell(p, protocol.results.find(r => r.pair === p.pair && r.candidate === name)))]);
-  byId('drake-table').append(table(perPair('query'), [published('penetration'), published('signed_distance'), ...rows],
+  byId('drake-table').append(table([textColumn('query'), ...pairs.map(p => column(otherShape(p)))], [published('penetration'), published('signed_distance'), ...rows],
       'Cylinder against …: worst error, millimetres'));
 }
 function drakeCell(pair, r) {
   if (supported(r) === 0) return notAvailable();
-  const missed = r.outcomes.missed || 0, cell = element('td', {class: 'heat',
+  const cell = element('td', {class: 'heat',
       style: heated(r.max_error === null ? 1 : decade(1e3 * r.max_error))}, r.max_error === null ? '–' : millimetres(r.max_error),
-      missed || lost(r) ? element('small', {}, `${missed + lost(r)} lost`) : null);
+      lost(r) ? element('small', {}, `${lost(r)} lost`) : null);
   const worst = r.worst === null ? null : pair.configurations[r.worst];
   explain(cell, `${r.candidate}, ${dashed(r.pair)}, ${r.count} poses\n${outcomesText(r)}` + (worst ? `\nworst: ${worst.description}\nClick for the command` : ''));
   if (worst) {
@@ -45,7 +26,6 @@ function drakeCell(pair, r) {
   }
   return cell;
 }
-keepGrouped(worstErrors);
 drakeProtocol();
 
 // A candidate's name, with the pairs that its row over all of them is over.
@@ -53,11 +33,10 @@ const namedOver = r => [named(r.candidate), coveredText(r) ? element('small', {c
 
 // Agreement, errors and speed of one pair at a time; and the errors of simplified models.
 function summaryTable() {
-  const pair = byId('summary-pair').value;
   const wide = text => column(text, {class: 'wide'});
   const heads = [textColumn('candidate'), 'agrees', 'wrong yes/no', 'error, p99', wide('error, max'), wide('bias'), wide('regret, p99'),
                  'points, p99', wide('coverage'), 'ns', wide('ns, p95'), wide('× Bullet')];
-  const rows = summary().filter(r => r.pair === pair && supported(r)).map(r => {
+  const rows = ranked().map(r => {
     const share = agreeing(r), ratio = r.nanoseconds && r.nanoseconds.ratio_to_bullet;
     return [rowHead(...namedOver(r)), element('td', {class: share === 1 ? 'good' : '', 'data-value': share}, agreement(r)),
             element('td', {class: r.outcomes.missed || r.outcomes.phantom ? 'bad' : '', 'data-value': (r.outcomes.phantom || 0) + (r.outcomes.missed || 0)},
@@ -68,7 +47,7 @@ function summaryTable() {
             ratio ? (r.tied_with.includes('bullet') ? '~' : '') + ratio.toFixed(2) : '–'];
   });
   byId('summary-table').replaceChildren(table(heads, rows,
-      `Agreement, errors of the reported contacts, nanoseconds per query, ${group} poses`));
+      `Agreement, errors of the reported contacts, nanoseconds per query, ${pairWords(chosen.pair)}, ${chosen.group} poses`));
 }
 
 function timeCell(r) {
@@ -83,28 +62,22 @@ const biasText = r => r.bias === null ? '–' : `${r.bias.median > 0 ? '+' : ''}
 // The errors of a simplified model and of its solver.
 const modelled = report.summary.filter(r => r.model_error !== null && report.candidates.some(c => c.name === r.candidate && c.models));
 function modelTable() {
-  const rows = modelled.filter(r => r.class === group && r.pair === byId('model-pair').value).map(r => {
+  const rows = modelled.filter(r => r.class === chosen.group && r.pair === chosen.pair).map(r => {
     const name = rowHead(...namedOver(r));
     explain(name, report.candidates.find(c => c.name === r.candidate).models);
     return [name, ...[r.model_error, r.solver_error].flatMap(q => ['median', 'p99'].map(which => exponent(quantile(q, which))))];
   });
   byId('model-table').replaceChildren(table([textColumn('candidate'), 'model, median', 'p99', 'solver, median', 'p99'], rows,
-      `Errors of model and solver, ${group} poses`));
+      `Errors of model and solver, ${pairWords(chosen.pair)}, ${chosen.group} poses`));
 }
-const summaryPairs = [...new Set([...(pairs.length > 1 ? ['all'] : []), ...[...pairs].reverse()])];
-choices('summary-pair', summaryPairs, summaryTable);
-keepGrouped(summaryTable);
-if (modelled.length) {
-  byId('models').hidden = false;
-  choices('model-pair', summaryPairs.filter(p => modelled.some(r => r.pair === p)), modelTable);
-  keepGrouped(modelTable);
-}
+follow(summaryTable);
+byId('models').hidden = modelled.length === 0;
+follow(modelTable);
 
-// Pose classes: a table whose cells are coloured by one quantity, of all candidates on one pair or of
-// one candidate on all pairs.
+// Pose classes: a table whose cells are coloured by one quantity, of all candidates on the pair that is chosen or, on all pairs,
+// of the candidate.
 const quantities = {
-  fail: {value: r => 1 - agreeing(r), text: r => agreeing(r) === 1 ? '0' : (unasked(r) ? '≤ ' : '') + (100 * (1 - agreeing(r))).toFixed(1) + '%',
-         level: v => v === 0 ? 0 : 0.12 + 0.88 * v},
+  fail: {value: r => 1 - agreeing(r), text: r => agreeing(r) === 1 ? '0' : disagreement(r), level: failed},
   worst: {value: r => quantile(r.severity, 'max'), text: r => exponent(quantile(r.severity, 'max')), level: decade},
   depth: {value: r => quantile(r.depth_error, 'p99'), text: r => exponent(quantile(r.depth_error, 'p99')), level: decade},
   regret: {value: r => quantile(r.normal_regret, 'p99'), text: r => exponent(quantile(r.normal_regret, 'p99')), level: decade},
@@ -115,14 +88,12 @@ const quantities = {
 const resultAt = new Map(report.results.map(r => [`${r.pair}/${r.class}/${r.candidate}`, r]));
 
 function classTable() {
-  const candidate = byId('class-candidate').value, pair = byId('class-pair').value;
+  const {candidate, pair} = chosen, ofOne = pair === 'all';
   const quantity = quantities[byId('class-quantity').value], what = byId('class-quantity').selectedOptions[0].text;
-  const ofOne = candidate !== 'all';
-  byId('class-pair').parentElement.hidden = ofOne;
-  const classes = [...new Map(report.classes.filter(c => c.group === group && (ofOne || c.pair === pair)).map(c => [c.class, c])).values()];
+  const classes = [...new Map(report.classes.filter(c => c.group === chosen.group && ofPair(c)).map(c => [c.class, c])).values()];
   const columns = ofOne ? pairs.map(p => [p, candidate]) : candidates.map(c => [pair, c]);
   const rows = classes.map(c => {
-    const name = rowHead(...c.class.split('+').flatMap((part, i) => i ? [element('wbr'), `+${part}`] : [part]));
+    const name = rowHead(...classWords(c.class));
     explain(name, c.description);
     return [name, ...columns.map(([p, k]) => classCell(c, resultAt.get(`${p}/${c.class}/${k}`), quantity))];
   });
@@ -137,58 +108,11 @@ function classCell(c, r, quantity) {
       `worst error ${exponent(quantile(r.severity, 'max'))}, depth error p99 ${exponent(quantile(r.depth_error, 'p99'))}, regret p99 ` +
       `${exponent(quantile(r.normal_regret, 'p99'))}\npatch covered: mean ${cutShare(quantile(r.coverage, 'mean'))}; ${whole(time(r))} ns, p95 ${whole(tail(r))} ns` +
       (r.worst_index === null ? '' : `\nworst: ${r.pair}/${r.class}/${report.seed}/${r.worst_index}`));
-  whenPressed(cell, () => showWorst(r.pair, r.candidate));
+  whenPressed(cell, () => showFailures(r.pair, r.candidate));
   return cell;
 }
-choices('class-pair', pairs, classTable, pairs[pairs.length - 1]);
-choices('class-candidate', ['all', ...candidates], classTable, candidates.find(c => c !== 'reference') || candidates[0]);
 byId('class-quantity').addEventListener('change', classTable);
-keepGrouped(classTable);
-
-// What raises a candidate's failure rate most (factors.hpp).
-function factorTable() {
-  const candidate = byId('factor-candidate').value, entries = report.factors.filter(f => f.candidate === candidate && f.group === group);
-  byId('factor-command').replaceChildren();
-  const rows = entries.map(f => {
-    const row = element('tr', {}, rowHead(dashed(f.pair)), element('td', {class: 'text'}, f.name),
-        element('td', {}, failing(f.with.failed / f.with.count)), element('td', {}, failing(f.without)), element('td', {class: 'text wide'}, f.kind));
-    explain(row, `${f.kind} ${f.name}: ${whole(f.with.failed)} of ${whole(f.with.count)} fail\nworst: ${f.worst}\nClick for the command`);
-    whenPressed(row, () => byId('factor-command').replaceChildren(command(replayOf(f.worst, candidate))));
-    return row;
-  });
-  byId('factor-table').replaceChildren(rows.length === 0 ? `Nothing raises the failure rate of ${candidate} beyond chance in ${group} poses.` : table(
-      [textColumn('pair'), textColumn('what'), 'fails with it', 'without', column('kind', {class: 'text wide'})], rows, `${candidate}, ${group} poses`));
-}
-const failing = share => `${(100 * share).toFixed(1)}%`;
-choices('factor-candidate', candidates, factorTable, candidates.find(c => c !== 'reference'));
-keepGrouped(factorTable);
-
-// Every arrangement alone against the same one turned or tilted, by candidate.
-function contrastTable() {
-  const pair = byId('contrast-pair').value, isTurned = byId('contrast-modifier').value === 'turned';
-  const entries = report.contrasts.filter(c => c.pair === pair && (c.modifier === 'turned') === isTurned);
-  const at = new Map(entries.map(c => [`${c.arrangement}/${c.candidate}`, c]));
-  const arrangements = [...new Set(entries.map(c => c.arrangement))], here = candidates.filter(name => entries.some(c => c.candidate === name));
-  byId('contrast-command').replaceChildren();
-  const rows = arrangements.map(a => [rowHead(a), ...here.map(name => contrastCell(at.get(`${a}/${name}`)))]);
-  byId('contrast-table').replaceChildren(rows.length === 0 ? 'No arrangement of this pair was asked in both ways.' : table(
-      [textColumn('arrangement'), ...here.map(name => column(named(name), {class: 'slanted'}))], rows,
-      `${dashed(pair)}: agreement alone, ${isTurned ? 'turned' : 'tilted'}, in percent`));
-}
-function contrastCell(c) {
-  if (!c) return notAvailable();
-  const alone = agreed(c.plain), modified = agreed(c.modified), cell = element('td', {class: 'heat', 'data-value': modified - alone, style: heated(Math.max(0, alone - modified))},
-      element('span', c.fails ? {class: 'strong'} : {}, `${Math.floor(100 * alone)} → ${Math.floor(100 * modified)}`));
-  explain(cell, `${c.candidate}, ${dashed(c.pair)}, ${c.arrangement}\nalone: agrees on ${percent(alone)} of ${whole(c.plain.count)}\n` +
-      `${c.modifier}: on ${percent(modified)} of ${whole(c.modified.count)}\nchance of as many failures there by accident: ${exponent(c.chance)}` +
-      (c.worst ? '\nClick for the worst failure' : ''));
-  if (c.worst) whenPressed(cell, () => byId('contrast-command').replaceChildren(command(replayOf(c.worst, c.candidate))));
-  return cell;
-}
-choices('contrast-pair', pairs.filter(p => report.contrasts.some(c => c.pair === p)), contrastTable, 'cylinder-cylinder');
-byId('contrast-modifier').addEventListener('change', contrastTable);
-byId('contrasts').hidden = report.contrasts.length === 0;
-contrastTable();
+follow(classTable);
 
 // Contact points: their number and coverage, beside the numbers of the thesis that added cylinders to the pe
 // rigid-body engine (its figures 4-6, 16-19 and 21-28).
@@ -218,10 +142,9 @@ function pointCounts(r) {
   return lo === hi ? String(lo) : `${lo}–${hi}`;
 }
 function manifold() {
-  const candidate = byId('manifold-candidate').value;
-  const other = candidate === 'reference' ? candidates.find(c => c !== 'reference') : candidates.includes('reference') ? 'reference' : null;
+  const {candidate} = chosen, other = own(candidate) ? candidates.find(c => !own(c)) : candidates.includes('reference') ? 'reference' : null;
   const compared = [candidate, ...(other ? [other] : [])];
-  const rows = thesisCases.filter(([pair, poseClass]) => resultAt.has(`${pair}/${poseClass}/${candidate}`)).map(([pair, poseClass, words, points]) => {
+  const rows = thesisCases.filter(([pair, poseClass]) => ofPair({pair}) && resultAt.has(`${pair}/${poseClass}/${candidate}`)).map(([pair, poseClass, words, points]) => {
     const name = rowHead(words);
     explain(name, `${dashed(pair)}, class ${poseClass}`);
     return [name, points, ...compared.flatMap(c => manifoldCells(resultAt.get(`${pair}/${poseClass}/${c}`)))];
@@ -235,8 +158,7 @@ function manifoldCells(r) {
   explain(points, `${r.candidate}: ${Object.entries(r.points).map(([n, count]) => `${count} × ${n} points`).join(', ') || 'no contacts'}`);
   return [points, element('td', mean === null ? {} : {class: 'heat', style: heated(1 - mean)}, cutShare(mean))];
 }
-choices('manifold-candidate', candidates, manifold, candidates.find(c => c !== 'reference') || candidates[0]);
-manifold();
+follow(manifold);
 
 // Rigid-body experiments with an answer on paper: the error of every candidate in every experiment,
 // and the numbers of one experiment. Errors below what an experiment resolves are equal.
@@ -263,7 +185,11 @@ function experimentTables({experiments, results, steps}) {
         const r = of(e, name), cell = element('td', {class: r.exact ? 'heat good' : r.outcome === 'unsupported' ? 'quiet' : 'heat',
             'data-value': experimentCell.key(r), style: experimentCell.style(r, e.resolution[0])}, experimentCell.text(r));
         explain(cell, experimentTip(r, e, 0));
-        whenPressed(cell, () => { byId('experiment-name').value = e.name; one(); });
+        whenPressed(cell, () => {
+          byId('experiment-name').value = e.name;
+          byId('experiment').open = true;
+          one();
+        });
         return cell;
       })]);
   const resolved = element('tr', {class: 'pinned quiet'}, rowHead('resolves'),
@@ -293,6 +219,8 @@ if (report.experiments) {
 }
 
 if (report.engines) drawEngines(report.engines);
+byId('motion').hidden = !report.experiments && !report.engines;
+if (report.stability) drawStability(byId('stability'), report.stability);
 
 // How often each arrangement occurs in the recorded scenes, and how far the bodies are tilted out of it.
 function recordedTable(recorded) {
@@ -318,8 +246,8 @@ if (report.recorded && report.recorded.length) {
 
 // The outcomes of all configurations, as bars.
 function outcomeBars() {
-  const pair = byId('outcome-pair').value, seen = outcomes.filter(o => report.summary.some(r => r.outcomes[o]));
-  const rows = summary().filter(r => r.pair === pair && supported(r)).map(r => {
+  const seen = outcomes.filter(o => report.summary.some(r => r.outcomes[o]));
+  const rows = ranked().map(r => {
     const bar = element('div', {class: 'bar', role: 'img', 'aria-label': outcomesText(r)});
     for (const o of seen) {
       const n = r.outcomes[o] || 0;
@@ -332,5 +260,4 @@ function outcomeBars() {
   });
   byId('outcome-bars').replaceChildren(outcomeLegend(seen), ...rows);
 }
-choices('outcome-pair', summaryPairs, outcomeBars);
-keepGrouped(outcomeBars);
+follow(outcomeBars);

@@ -1,7 +1,7 @@
 // Draws a "stability" object (docs/stability.md) into an element: charts of small steps, maps of failure, motions.
 function drawStability(into, study) {
-  into.append(element('h2', {}, 'Stability'), element('p', {},
-      'What a tiny change of pose does to an answer, near poses that are exactly parallel, perpendicular ' +
+  into.hidden = false;
+  into.append(element('p', {}, 'What a tiny change of pose does to an answer, near poses that are exactly parallel, perpendicular ' +
       'or touching. Lengths are in sizes of the smaller shape.'));
   const inOrder = results => study.candidates.filter(n => results.some(r => r.candidate === n));
   if (study.amplification) drawSteps(into, study.amplification, inOrder(study.amplification.results));
@@ -12,6 +12,7 @@ function drawStability(into, study) {
 function drawStabilityPage() {
   byId('provenance').append(`Touchstone ${data.version}. Same figures again: `, element('code', {}, data.command));
   drawStability(byId('stability'), data);
+  for (const part of document.querySelectorAll('details')) part.open = true;
 }
 
 // A label and its select box.
@@ -80,7 +81,7 @@ function drawSteps(into, ladder, names) {
 function worstSteps(worst) {
   const rows = worst.filter(w => w.measure === 'amplification' && w.value > 1 + 1e-9).sort((a, b) => b.value - a.value);
   if (rows.length === 0) return '';
-  return element('details', {}, element('summary', {}, 'Worst steps, by change of depth over what the step allows'),
+  return fold('Worst steps, by change of depth over what the step allows',
       element('div', {class: 'scroll'}, table([...['candidate', 'pair', 'from', 'to'].map(textColumn), 'times'], rows.map(w =>
           [named(w.candidate), w.pair, ...[w.from, w.to].map(id => element('td', {class: 'text wrap'}, element('code', {}, id))), exponent(w.value)]), 'Worst steps')));
 }
@@ -95,11 +96,11 @@ function drawMaps(into, maps, names) {
   zoom.value = Math.max(0, maps.zooms.indexOf('1e-8'));
   const seen = Object.entries(maps.letters).filter(([letter]) =>
       maps.poses.some(p => p.results.some(r => r.maps.some(m => m.includes(letter))))).map(([, outcome]) => outcome);
-  into.append(element('h3', {}, 'Maps of failure'), element('p', {},
+  into.append(fold('Maps of failure', element('p', {},
       'Each picture surrounds an exactly degenerate pose, in its middle, with tiny changes of two kinds: tilts, ' +
       'turns (radians) or offsets up to the zoom. A colour is what became of the answer; few points: right, but ' +
       'covering less than 0.3 of the contact patch.'),
-      element('p', {class: 'controls'}, label), outcomeLegend(seen), place, shown);
+      element('p', {class: 'controls'}, label), outcomeLegend(seen), place, shown));
   const show = (result, pixel) => shown.replaceChildren(`${result.candidate}, ${maps.letters[pixel.letter]}: `,
       element('code', {}, `${programOf(result.candidate)} replay ${pixel.name} --candidates ${result.candidate}`));
   function draw() {
@@ -153,10 +154,10 @@ function drawMotions(into, sequences, names) {
   const step = (motion, i) => `sequence/${motion.motion}/${i}/${sequences.steps}`;
   const place = element('div', {class: 'scroll'});
   const [label, measure] = labelledSelect('Show', Object.entries(motionMeasures).map(([k, v]) => [k, v[0]]), draw);
-  into.append(element('h3', {}, 'Motions'), element('p', {},
+  into.append(fold('Slow motions through degenerate poses', element('p', {},
       `Slow motions through degenerate poses in ${sequences.steps} steps, in which depth and contact points should ` +
       'change as smoothly as the truth does. Hover over a cell for the step.'),
-      element('p', {class: 'controls'}, label), place);
+      element('p', {class: 'controls'}, label), place));
   function cell(m, result) {
     const value = result ? motionMeasures[measure.value][1](result) : null;
     if (value === null) return element('td', {}, '–');

@@ -6,13 +6,12 @@
 const column = (text, attributes = {}) => element('th', {scope: 'col', ...attributes}, text);
 const textColumn = text => column(text, {class: 'text'});
 const rowHead = (...children) => element('th', {scope: 'row'}, ...children);
-function table(heads, rows, caption) {
+function table(heads, rows, caption, isSortable = rows.length > 2) {  // two rows are compared at a glance
   const columns = heads.map(h => h instanceof Element ? h : column(h));
   const cell = (c, i) => c instanceof HTMLTableCellElement ? c : element('td', {class: columns[i].className}, c);
   const made = element('table', {}, caption && element('caption', {}, element('span', {}, caption)),
       element('thead', {}, element('tr', {}, ...columns)),
       element('tbody', {}, ...rows.map(r => r instanceof Element ? r : element('tr', {}, ...r.map(cell)))));
-  const isSortable = rows.length > 2;  // two rows are compared at a glance
   if (isSortable) makeSortable(made);
   if (isSortable || made.querySelector('.explained')) makeGrid(made);
   new ResizeObserver(() => showMore(made.parentElement)).observe(made);
@@ -79,4 +78,17 @@ function makeGrid(made) {
       default: return null;
     }
   });
+}
+
+// Candidates against pairs. A press on a pair's head chooses it: rows are sorted by it. Touchstone's own routine, the
+// yardstick, is set apart. `cell(pair, name)` gives a cell.
+function matrix(host, pairs, names, cell, caption) {
+  const wasFocused = host.contains(document.activeElement);
+  const heads = pairs.map(pair => column(otherShape(pair),
+      {'aria-sort': pair === chosen.pair ? 'descending' : 'none'}));
+  heads.forEach((head, i) => whenPressed(head, () => choose({pair: pairs[i]})));
+  const row = name => element('tr', own(name) ? {class: 'yardstick'} : {}, rowHead(named(name), own(name) && element('small', {}, own(name))),
+      ...pairs.map(pair => cell(pair, name)));
+  host.replaceChildren(table([textColumn('candidate'), ...heads], [...names.filter(own), ...names.filter(n => !own(n))].map(row), caption, false));
+  if (wasFocused) heads[pairs.indexOf(chosen.pair)].focus();
 }
