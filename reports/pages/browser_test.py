@@ -784,6 +784,8 @@ class OtherPages(PageTest):
         self.run_program("replay", "cylinder-box/rim-face/1/0", "--html", page)
         self.open(page)
         self.assertEqual(self.find("#replay code").text, "./touchstone replay cylinder-box/rim-face/1/0")
+        self.assertRegex(self.find("#headline").text, r"^6\.4e-3 m deep; \d+ of \d+ candidates disagree: missed .*bullet,")
+        self.assert_in_sight("#headline", "#view", "#slice")
         before = self.picture("#view")
         self.find("#view-contact").click()
         self.assertNotEqual(self.picture("#view"), before)

@@ -193,7 +193,8 @@ byId('description').textContent = data.description;
 byId('name-b').textContent = `${given.b.shape} B`;
 const distance = Number(truth.signed_distance[0]), failing = answers.filter(([, a]) => isFailure(a.score.outcome));
 byId('headline').textContent = `${distance < 0 ? `${exponent(-distance)} m deep` : `${exponent(distance)} m apart`}; ` +
-    (failing.length ? `${failing.length} of ${answers.length} candidates disagree.` : 'all candidates agree.');
+    (failing.length ? `${failing.length} of ${answers.length} candidates disagree: ` + outcomes.map(o => [o, failing.filter(([, a]) => a.score.outcome === o)])
+        .filter(([, of]) => of.length).map(([o, of]) => `${o} ${of.map(([name]) => name).join(', ')}`).join('; ') + '.' : 'all candidates agree.');
 legend();
 truthValues();
 answerTables();
