@@ -934,6 +934,7 @@ class OtherPages(PageTest):
         self.run_program("choose", scene, "--candidates", "reference,ode,capsule,prism:16,spheres:1..16",
                          "--disturbances", "1", "--out", folder)
         self.open(folder / "choose.html")
+        self.assert_in_sight("#headline", "#front", "#kind-table", "#need-table")  # verdict and picture
         self.assertIn("error / limit", self.find("#front").text)
         self.assertGreater(len(self.all("#front .mark-symbol path")), 2)
         self.assertGreater(self.assert_labels_apart(self.find("#front")), 3)

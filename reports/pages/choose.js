@@ -13,14 +13,11 @@ function failure(run) {
       (run.disturbance ? `, disturbance ${run.disturbance}` : '');
 }
 
-/// Behind the provenance: the command, and what it did not read of a robot's or world's file.
+// How it was measured: where, the command, and what it did not read of a robot's or world's file.
 function origin() {
-  const parts = [element('details', {}, element('summary', {}, 'The command'), command(data.command))];
-  if (data.scene.ignored.length) {
-    parts.push(element('details', {id: 'ignored'}, element('summary', {}, `What of the file was not read (${data.scene.ignored.length})`),
-        element('ul', {}, ...data.scene.ignored.map(text => element('li', {}, text)))));
-  }
-  byId('provenance').after(...parts);
+  const {ignored} = data.scene, unread = fold(`What of the file was not read (${ignored.length})`,
+      element('ul', {id: 'ignored'}, ...ignored.map(text => element('li', {}, text))));
+  byId('measured').append(byId('provenance'), command(data.command), ...(ignored.length ? [unread] : []));
 }
 
 function headline() {
@@ -64,8 +61,8 @@ function needTable(verdicts) {
 function answerTables() {
   byId('kind-table').append(table([textColumn('pairs'), textColumn('model'), 'bytes a shape', 'ns a query', 'ns exactly', column('queries', {class: 'wide'}), textColumn('next cheaper one')],
       data.kinds.map(k => [wide(`${k.name} (${k.bodies})`), exactName(k.chosen) + (k.is_sphere ? ', here a sphere' : ''), whole(k.bytes), whole(k.nanoseconds), whole(k.exact_nanoseconds),
-          whole(k.asked), k.next_cheaper === null ? 'there is none' : `${k.next_cheaper.name}, ${whole(k.next_cheaper.nanoseconds)} ns, ` +
-            (data.runs[k.next_cheaper.run].holds ? `holds: ${exponent(data.runs[k.next_cheaper.run].step_microseconds, 3)} µs a step` : 'breaks a need')]), 'Times of a query, median'));
+          whole(k.asked), wide(k.next_cheaper === null ? 'there is none' : `${k.next_cheaper.name}, ${whole(k.next_cheaper.nanoseconds)} ns, ` +
+            (data.runs[k.next_cheaper.run].holds ? `holds: ${exponent(data.runs[k.next_cheaper.run].step_microseconds, 3)} µs a step` : 'breaks a need'))]), 'Times of a query, median'));
   byId('need-table').append(needTable(answer.verdicts));
 }
 
