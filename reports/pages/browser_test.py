@@ -817,6 +817,23 @@ class OtherPages(PageTest):
         self.choose("#experiment-name", "rolling")
         self.assertNotEqual(self.find("#experiment-table").get_attribute("innerHTML"), before)
 
+    def test_answers_that_came_in_a_file(self):
+        folder = Path(self.folder.name) / "given"
+        answers = Path(self.folder.name) / "answers.jsonl"
+        answers.write_text("".join(json.dumps({"id": f"cylinder-{name}/1/0", "status": "none"}) + "\n"
+                                   for name in ("plane/lying", "box/general+apart")))
+        self.run_program("score", answers, "--name", "mine", "--out", folder)
+        self.open(folder / "report.html", 150)
+        self.assertEqual(len(self.all("#matrix tbody tr")), 1)
+        for group in [b.text for b in self.all("#groups button")]:
+            self.press(self.find(f"#groups button[value={group}]"))
+            self.assertRegex(self.find("#headline").text, rf"^(Right in all|Most often right in) {group} poses: mine")
+            self.assertIn(f"mine, all pairs, {group} poses", self.find("#failure-words").text)
+        for row in self.all("#failure-table tbody tr"):
+            self.press(row)
+        self.assertNotIn("null", self.find("body").text)
+        self.assertEqual(self.console(), [])
+
     def test_needles_and_coins_are_seen(self):
         page = Path(self.folder.name) / "thin.html"
         for name in ("cylinder-box/general+needle/1/0", "cylinder-capsule/coaxial+needle+tilted-1e-8+turned/1/0",

@@ -7,6 +7,11 @@ const classGroup = new Map(report.classes.map(c => [`${c.pair}/${c.class}`, c.gr
 const groupOf = r => classGroup.get(`${r.pair}/${r.class}`), inGroup = r => groupOf(r) === chosen.group;
 const ofPair = r => chosen.pair === 'all' || r.pair === chosen.pair;
 const summary = () => report.summary.filter(r => r.class === chosen.group);
+// The pair whose rows are shown: a group of one pair has no row over all.
+function summedPair() {
+  const here = [...new Set(summary().map(r => r.pair))];
+  return chosen.pair === 'all' && here.length === 1 ? here[0] : chosen.pair;
+}
 const summaryOf = (pair, candidate) => summary().find(r => r.pair === pair && r.candidate === candidate);
 const coveredText = r => coveredOf(report.summary, r);
 
@@ -19,13 +24,20 @@ const lost = r => withoutAnswer.reduce((sum, o) => sum + (r.outcomes[o] || 0), r
 const vector = v => v === null ? '–' : `(${v.map(c => c === null ? 'nan' : plainNumber(c, 6)).join(', ')})`;
 const outcomesText = r => Object.entries(r.outcomes).map(([name, n]) => `${name} ${n}`).join(', ') +
     (unasked(r) ? `\n${whole(r.outcomes['timed-out'])} time-outs; ${whole(supported(r) - unasked(r))} of ${whole(supported(r))} asked` : '');
-// The pose classes of any group in which a candidate disagrees, on a pair or on all.
+// In how many pose classes of each group a candidate disagrees, of how many it has a routine for, on a pair and on all.
 const isFailing = r => supported(r) > 0 && agreeing(r) < 1;
-const failingOf = (candidate, pair = 'all') =>
-    report.results.filter(r => r.candidate === candidate && (pair === 'all' || r.pair === pair) && isFailing(r));
+const classCounts = new Map();
+for (const r of report.results.filter(supported)) {
+  for (const pair of [r.pair, 'all']) {
+    const key = `${pair}/${r.candidate}/${groupOf(r)}`, {fail, of} = classCounts.get(key) ?? {fail: 0, of: 0};
+    classCounts.set(key, {fail: fail + isFailing(r), of: of + 1});
+  }
+}
+const countsOf = ({pair, candidate}, group) => classCounts.get(`${pair}/${candidate}/${group}`) ?? {fail: 0, of: 0};
+const otherGroups = () => Object.keys(groupMeanings).filter(g => g !== chosen.group);
 // What is right in the poses that are chosen may fail in others.
-function elsewhere({candidate, pair}) {
-  const n = failingOf(candidate, pair).filter(r => !inGroup(r)).length;
+function elsewhere(r) {
+  const n = otherGroups().reduce((sum, g) => sum + countsOf(r, g).fail, 0);
   return n ? `elsewhere: ${n} ${n === 1 ? 'class fails' : 'classes fail'}` : '';
 }
 const isGiven = name => report.candidates.some(c => c.name === name && c.given);  // its answers came in a file
@@ -52,13 +64,13 @@ function ranked() {
   const rounding = 1e-12;
   const worst = r => r.severity === null ? Infinity : Math.max(r.severity.max, rounding);
   const slow = r => time(r) === null ? Infinity : time(r);
-  return summary().filter(r => r.pair === chosen.pair && supported(r))
+  return summary().filter(r => r.pair === summedPair() && supported(r))
       .sort((a, b) => agreeing(b) - agreeing(a) || worst(a) - worst(b) || slow(a) - slow(b));
 }
 
 // The answer in a sentence: who is right, how fast; the fastest; the yardstick.
 function verdict() {
-  const rows = ranked().filter(r => !coveredText(r)), others = rows.filter(r => !own(r.candidate)), list = others.length ? others : rows;
+  const all = ranked(), ofAllPairs = all.filter(r => !coveredText(r)), rows = ofAllPairs.length ? ofAllPairs : all, others = rows.filter(r => !own(r.candidate)), list = others.length ? others : rows;
   const perfect = list.filter(r => agreeing(r) === 1).sort((a, b) => time(a) - time(b)), best = perfect.length ? perfect.slice(0, 3) : list.slice(0, 1);
   const fastest = list.filter(r => time(r) !== null).sort((a, b) => time(a) - time(b))[0];
   const told = (r, share = `, ${agreement(r)}`) => [named(r.candidate, own(r.candidate)), share + (time(r) === null ? '' : ` in ${duration(time(r))}`) +
@@ -82,8 +94,8 @@ function answerMatrix() {
     const cell = element('td', {class: right ? 'heat right' : 'heat', ...(right ? {} : {style: heated(isWorst ? 1 + Math.log10(worst) / 16 : failed(1 - share))})},
         isWorst ? exponent(worst) : agreement(r),
         element('small', {}, isWorst ? lost(r) ? `${whole(lost(r))} lost` : '' : duration(time(r))));
-    const classes = report.results.filter(s => s.candidate === name && (pair === 'all' || s.pair === pair) && inGroup(s) && supported(s));
-    explain(cell, [`${name}, ${pairWords(pair)}${coveredText(r)}`, outcomesText(r), `disagrees in ${classes.filter(isFailing).length} of ${classes.length} ${chosen.group} pose classes`,
+    const {fail, of} = countsOf(r, chosen.group);
+    explain(cell, [`${name}, ${pairWords(pair)}${coveredText(r)}`, outcomesText(r), `disagrees in ${fail} of ${of} ${chosen.group} pose classes`,
                    elsewhere(r), `worst error ${exponent(worst)}, 99th percentile ${exponent(quantile(r.severity, 'p99'))}`, 'Click for its worst classes and cases'].filter(Boolean).join('\n'));
     whenPressed(cell, () => showFailures(pair, name));
     return cell;
@@ -101,7 +113,7 @@ const minChartedError = 1e-17;
 const timeLabel = "datum.value < 1e3 ? datum.value + ' ns' : datum.value < 1e6 ? datum.value / 1e3 + ' µs' : datum.value / 1e6 + ' ms'";
 function speedChart() {
   const charted = byId('chart-time').value === 'p95' ? tail : time, place = byId('speed-chart');
-  const rows = summary().filter(r => r.pair === chosen.pair && charted(r) !== null && r.depth_error !== null);
+  const rows = summary().filter(r => r.pair === summedPair() && charted(r) !== null && r.depth_error !== null);
   byId('chart-pair').textContent = pairWords(chosen.pair);
   if (rows.length === 0) return clearChart(place, 'No candidate was timed.');
   // The front is that of the medians; candidates whose spreads of time overlap tie (reports/statistics.hpp).
@@ -131,7 +143,7 @@ if (report.partial) {
       `${report.planned.classes} pose classes were scored and ${report.completed.timed_classes} timed.`;
 }
 const routines = candidates.filter(name => report.summary.some(r => r.candidate === name && supported(r)));
-const alwaysRight = routines.filter(name => failingOf(name).length === 0).length;
+const alwaysRight = routines.filter(name => !report.results.some(r => r.candidate === name && isFailing(r))).length;
 byId('extent').textContent = `${whole(report.configurations)} configurations, each answer held against a truth certified to 1e-30 of the larger size; of ` +
     `${routines.length} ${routines.length === 1 ? 'candidate' : 'candidates'} ${alwaysRight} ${alwaysRight === 1 ? 'agrees' : 'agree'} in every pose class of all groups. ` +
     `Touchstone ${report.version}, seed ${report.seed}, ${report.machine.cpu}.`;

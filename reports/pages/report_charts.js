@@ -1,6 +1,6 @@
 // The report's charts of errors: their distributions, what they depend on.
 // The distribution of errors: cumulative for several candidates, a histogram for one.
-const distributionRow = candidate => summaryOf(chosen.pair, candidate);
+const distributionRow = candidate => summaryOf(summedPair(), candidate);
 // Bins of half a decade, [lower, upper, count]; errors of zero are in a bin below all others.
 function binsOf(q) {
   const h = q.histogram, bins = h.counts.map((n, i) => [10 ** ((h.first + i) / 2), 10 ** ((h.first + i + 1) / 2), n]);

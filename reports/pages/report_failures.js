@@ -5,23 +5,23 @@ const classWords = name => name.split('+').flatMap((part, i) => i ? [element('wb
 const maxClasses = 8;
 
 function failures() {
-  const {candidate, pair, group} = chosen, all = report.results.filter(r => r.candidate === candidate && ofPair(r) && supported(r));
-  const here = all.filter(inGroup), failing = here.filter(isFailing)
+  const {candidate, pair, group} = chosen, here = report.results.filter(r => r.candidate === candidate && ofPair(r) && inGroup(r) && supported(r));
+  const failing = here.filter(isFailing)
       .sort((a, b) => agreeing(a) - agreeing(b) || quantile(b.severity, 'max') - quantile(a.severity, 'max'));
-  const others = Object.keys(groupMeanings).filter(g => g !== group).map(g => [g, all.filter(r => groupOf(r) === g)])
-      .map(([g, rows]) => [g, rows.filter(isFailing).length, rows.length]).filter(([, n]) => n);
+  const others = otherGroups().map(g => [g, countsOf(chosen, g)]).filter(([, {fail}]) => fail);
   byId('failure-words').replaceChildren(named(candidate, own(candidate)), `, ${pairWords(pair)}, ${group} poses: `,
       here.length === 0 ? 'it has no routine for them.' : failing.length ? `disagrees in ${failing.length} of ${here.length} pose classes.`
           : `agrees with the truth on every configuration of ${here.length} pose classes.`,
-      ...(others.length ? [' Elsewhere: ', ...others.flatMap(([g, n, of], i) => [i ? ', ' : '', link(`${n} of ${of} ${g} classes`, () => choose({group: g}))]),
-                           others.length === 1 && others[0][1] === 1 ? ' fails.' : ' fail.'] : []), slowTails(here));
+      ...(others.length ? [' Elsewhere: ', ...others.flatMap(([g, {fail, of}], i) => [i ? ', ' : '', link(`${fail} of ${of} ${g} classes`, () => choose({group: g}))]),
+                           others.length === 1 && others[0][1].fail === 1 ? ' fails.' : ' fail.'] : []), slowTails(here));
   const main = r => Object.entries(r.outcomes).filter(([o]) => isFailure(o)).sort((a, b) => b[1] - a[1])[0][0];
   const rows = failing.slice(0, maxClasses).map(r => {
     const row = element('tr', {}, rowHead(...(pair === 'all' ? [`${otherShape(r.pair)}/`] : []), ...classWords(r.class)), element('td', {}, disagreement(r)),
         outcomeCell(main(r)), element('td', {}, exponent(quantile(r.severity, 'max'))),
         element('td', {class: 'text wrap wide'}, report.classes.find(c => c.pair === r.pair && c.class === r.class).description));
-    explain(row, `${outcomesText(r)}\nClick for the command that shows the worst of them`);
-    replaysWhenPressed(row, `${r.pair}/${r.class}/${report.seed}/${r.worst_index}`, candidate, 'failure-command');
+    const worst = r.worst_index === null ? null : `${r.pair}/${r.class}/${report.seed}/${r.worst_index}`;  // null: the answers came in a file
+    explain(row, outcomesText(r) + (worst ? '\nClick for the command that shows the worst of them' : ''));
+    if (worst) replaysWhenPressed(row, worst, candidate, 'failure-command');
     return row;
   });
   byId('failure-command').replaceChildren(failing.length > maxClasses ? element('p', {class: 'quiet'}, `And ${failing.length - maxClasses} more, in `,

@@ -62,7 +62,7 @@ const biasText = r => r.bias === null ? '–' : `${r.bias.median > 0 ? '+' : ''}
 // The errors of a simplified model and of its solver.
 const modelled = report.summary.filter(r => r.model_error !== null && report.candidates.some(c => c.name === r.candidate && c.models));
 function modelTable() {
-  const rows = modelled.filter(r => r.class === chosen.group && r.pair === chosen.pair).map(r => {
+  const rows = modelled.filter(r => r.class === chosen.group && r.pair === summedPair()).map(r => {
     const name = rowHead(...namedOver(r));
     explain(name, report.candidates.find(c => c.name === r.candidate).models);
     return [name, ...[r.model_error, r.solver_error].flatMap(q => ['median', 'p99'].map(which => exponent(quantile(q, which))))];
