@@ -1,7 +1,7 @@
 // The page of `touchstone compare`: what changed beyond the limits, and speed and accuracy before and now.
 const {comparison, before, after} = data, {limits} = comparison;
 const rows = [...before, ...after], names = [...new Set(rows.map(r => r.candidate))];
-const pairs = [...new Set([...rows, ...comparison.changes].map(r => r.pair))].filter(p => p !== 'all'), manyPairs = pairs.length > 1 ? ['all', ...pairs] : pairs;
+const pairs = [...new Set([...rows, ...comparison.changes].map(r => r.pair))].filter(p => p !== 'all');
 
 const beyond = comparison.changes.filter(c => c.beyond_limits);
 const verdicts = ['worse', 'slower', 'better', 'faster'], isRegression = c => c.verdict === 'worse' || c.verdict === 'slower';
@@ -95,7 +95,7 @@ byId('limits').textContent = `${comparison.compared} rows of pair, class and can
     `${limits.baseline}'s, by the nearest ends of the spreads), and ${percent(limits.agreement)} of the agreement must be kept. ` +
     `${comparison.changes.length - beyond.length} smaller changes are not listed.`;
 offerGroups([...new Set(rows.map(r => r.class))]);
-offer('pair', 'Pair', manyPairs.map(p => [p, pairWords(p)]));
+const manyPairs = offerPairs(pairs);
 offer('candidate', 'Candidate', [['all', 'all candidates'], ...names.map(n => [n, n])]);
 follow(verdict);
 follow(changeMatrix);

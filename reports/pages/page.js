@@ -208,6 +208,12 @@ function explain(target, text) {
   for (const start of ['mouseenter', 'focusin']) target.addEventListener(start, show);
   for (const end of ['mouseleave', 'focusout']) target.addEventListener(end, hideTip);
 }
+// All pairs together, where there are several, and each alone.
+function offerPairs(pairs) {
+  const offered = pairs.length > 1 ? ['all', ...pairs] : pairs;
+  offer('pair', 'Pair', offered.map(p => [p, pairWords(p)]));
+  return offered;
+}
 // Goes to a section, whose title takes the keyboard there.
 function goTo(id) {
   const title = byId(id).querySelector('h2');

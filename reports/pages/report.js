@@ -2,7 +2,7 @@
 const report = data;
 const candidates = report.candidates.map(c => c.name);
 showUsual(candidates);
-const pairs = [...new Set(report.classes.map(c => c.pair))], manyPairs = pairs.length > 1 ? ['all', ...pairs] : pairs;
+const pairs = [...new Set(report.classes.map(c => c.pair))];
 const classGroup = new Map(report.classes.map(c => [`${c.pair}/${c.class}`, c.group]));
 const groupOf = r => classGroup.get(`${r.pair}/${r.class}`), inGroup = r => groupOf(r) === chosen.group;
 const ofPair = r => chosen.pair === 'all' || r.pair === chosen.pair;
@@ -49,11 +49,6 @@ const replaysWhenPressed = (target, id, candidate, place) =>
 const floorText = ({nanoseconds: t}) => t && t.floor !== null ? `\nof bodies far apart ${whole(t.floor)} ns: what its binding costs; ` +
     `by our clock ${t.our_clock.toFixed(2)} times, processor time ${t.processor.toFixed(2)} times what it says` : '';
 
-// Fills a select box of the page and listens to it.
-function choices(id, values, change) {
-  byId(id).append(...options(values));
-  byId(id).addEventListener('change', change);
-}
 // The levels of heated cells: a share that fails; an error, pale at 1e-10 and below, full at 1 and above.
 const failed = share => share === 0 ? 0 : 0.15 + 0.85 * Math.sqrt(share);
 const decade = v => v <= 0 ? 0 : (Math.log10(v) + 10) / 10;
@@ -99,7 +94,7 @@ function answerMatrix() {
                    elsewhere(r), `worst error ${exponent(worst)}, 99th percentile ${exponent(quantile(r.severity, 'p99'))}`, 'Click for its worst classes and cases'].filter(Boolean).join('\n'));
     whenPressed(cell, () => showFailures(pair, name));
     return cell;
-  }, element('span', {}, `${isWorst ? 'Worst error, in sizes; contacts lost' : 'Answers that agree with the truth; median time'} in ${chosen.group} poses`,
+  }, element('span', {}, `${isWorst ? 'Worst error, in sizes, and contacts lost' : 'Answers that agree with the truth, and median time of a query,'} in ${chosen.group} poses`,
       element('span', {class: 'wide'}, `: ${groupMeanings[chosen.group]}`)));
 }
 // Goes to the worst classes and cases of a candidate on a pair.
@@ -148,7 +143,7 @@ byId('extent').textContent = `${whole(report.configurations)} configurations, ea
     `${routines.length} ${routines.length === 1 ? 'candidate' : 'candidates'} ${alwaysRight} ${alwaysRight === 1 ? 'agrees' : 'agree'} in every pose class of all groups. ` +
     `Touchstone ${report.version}, seed ${report.seed}, ${report.machine.cpu}.`;
 offerGroups([...new Set(report.summary.map(r => r.class))]);
-offer('pair', 'Pair', manyPairs.map(p => [p, pairWords(p)]));
+const manyPairs = offerPairs(pairs);
 offer('candidate', 'Candidate', candidates.map(c => [c, c]), candidates.find(c => !own(c)) ?? candidates[0]);
 follow(verdict);
 follow(answerMatrix);

@@ -210,7 +210,8 @@ function experimentTables({experiments, results, steps}) {
           whole(r.nanoseconds), whole(r.microseconds_per_step)]), 'One experiment'));
     byId('experiment-command').replaceChildren(command(`${program} simulate ${e.name} --step ${steps[0]}`));
   }
-  choices('experiment-name', experiments.map(e => e.name), one);
+  byId('experiment-name').append(...options(experiments.map(e => e.name)));
+  byId('experiment-name').addEventListener('change', one);
   one();
 }
 if (report.experiments) {
