@@ -5,10 +5,15 @@ const pairs = [...new Set([...rows, ...comparison.changes].map(r => r.pair))].fi
 
 const beyond = comparison.changes.filter(c => c.beyond_limits);
 const verdicts = ['worse', 'slower', 'better', 'faster'], isRegression = c => c.verdict === 'worse' || c.verdict === 'slower';
-const counted = n => n === 1 ? '1 class' : `${n} classes`;
 // Verdicts of a candidate on a pair or on all, with the number of classes.
 const ofCell = (pair, name) => beyond.filter(c => c.candidate === name && (pair === 'all' || c.pair === pair));
-const classesOf = changes => new Set(changes.map(c => `${c.pair}/${c.class}`)).size;
+// Rows over a group count where no class of it was compared.
+const isOfGroup = c => c.class in groupMeanings;
+function classesOf(changes) {
+  const classes = changes.filter(c => !isOfGroup(c));
+  return new Set((classes.length ? classes : changes).map(c => `${c.pair}/${c.class}`)).size;
+}
+const counted = n => `${n} ${beyond.every(isOfGroup) ? n === 1 ? 'group' : 'groups' : n === 1 ? 'class' : 'classes'}`;
 const rowOf = (summary, pair, name) => summary.find(r => r.class === chosen.group && r.pair === pair && r.candidate === name && supported(r));
 // "86.0% → 71.0%", or what both are.
 const agreements = (old, now) => [...new Set([old, now].filter(Boolean).map(agreement))].join(' → ');
@@ -29,7 +34,7 @@ function changeMatrix() {
     const old = rowOf(before, pair, name), now = rowOf(after, pair, name), changes = ofCell(pair, name);
     if (!old && !now && !changes.length) return element('td', {class: 'quiet'}, '–');
     const counts = verdicts.map(v => [v, classesOf(changes.filter(c => c.verdict === v))]).filter(([, n]) => n);
-    const isBad = changes.some(isRegression), cell = element('td', {class: !isBad && counts.length ? 'heat right' : 'heat', style: heated(isBad ? 0.6 : 0)},
+    const isBad = changes.some(isRegression), cell = element('td', {class: !isBad && counts.length ? 'heat right' : 'heat', ...(isBad && {style: heated(0.6)})},
         agreements(old, now) || '–', element('small', {}, !now ? 'only before' : !old ? 'only now' : counts.map(([v, n]) => `${n} ${v}`).join(', ')));
     explain(cell, `${name}, ${pairWords(pair)}\nbefore: ${old ? agreement(old) : '–'}; now: ${now ? agreement(now) : '–'}` +
         counts.map(([v, n]) => `\n${v}: ${counted(n)}`).join('') + '\nClick for its changes');
