@@ -508,6 +508,8 @@ class Report(PageTest):
         self.assertTrue(tip.is_displayed())
         self.assertIn(f"{name}, cylinder–plane", tip.text)
         self.assertIn("ns per query", tip.text)
+        elsewhere = "return elsewhere({candidate: arguments[0], pair: 'cylinder-plane'})"
+        self.assertIn(self.driver.execute_script(elsewhere, name), tip.text)
         mark.click()
         self.assertEqual(self.find("#candidate").get_attribute("value"), name)
         self.assertIn(f"{name}", self.find("#worst-cases h3").text)

@@ -116,7 +116,7 @@ function speedChart() {
   const at = r => ({x: charted(r), y: Math.max(r.depth_error.p99, minChartedError)});
   const points = rows.map((r, i) => ({...markData(r.candidate), ...at(r), order: front.includes(r) ? i : 1000 + i,
       label: `${r.candidate}${runsText(r.candidate)}${coveredText(r)}`, weight: front.includes(r) ? 'bold' : 'normal',
-      tip: `${r.candidate}, ${pairWords(r.pair)}${coveredText(r)}\nagrees on ${agreement(r)}, missed ${r.outcomes.missed || 0}\n` +
+      tip: `${r.candidate}, ${pairWords(r.pair)}${coveredText(r)}\nagrees on ${agreement(r)}, missed ${r.outcomes.missed || 0}\n` + (elsewhere(r) && `${elsewhere(r)}\n`) +
            `depth error p99 ${exponent(r.depth_error.p99)}, worst ${exponent(r.depth_error.max)}\n` +
            `${whole(time(r))} ns per query (quartiles ${whole(r.nanoseconds.low)} to ${whole(r.nanoseconds.high)})` +
            (tail(r) === null ? '' : `\n95% of the queries in each pose class at most ${whole(tail(r))} ns`) +
