@@ -161,45 +161,35 @@ Shape draw_other(Draw& draw, Pair pair) {
 
 namespace {
 
+template <class Round>
+Round formed(Form form, double size) {
+  const double small = size / static_cast<double>(extreme_ratio);
+  return form == Form::needle ? Round(small, size) : Round(size, small);
+}
+
 void reshape(Draw& draw, Proportions proportions, Bodies& bodies) {
-  const double size = bodies.a.radius(), small = size / static_cast<double>(extreme_ratio);
-  switch (proportions) {
-    case Proportions::usual:
-      return;
-    case Proportions::needle:
-      bodies.a = Cylinder(small, size);
-      return;
-    case Proportions::coin:
-      bodies.a = Cylinder(size, small);
-      return;
-    case Proportions::plate: {
-      const std::array<bool, 3> is_thin = draw_thin_extents(draw);
-      const double length = std::get<Box>(bodies.b).half_extents().x();
-      const auto extent = [&](std::size_t i) {
-        return is_thin[i] ? length / static_cast<double>(extreme_ratio) : length;
-      };
-      bodies.b = Box(Vec3(extent(0), extent(1), extent(2)));
-      return;
+  const Forms form = forms(proportions);
+  if (form.a != Form::usual) bodies.a = formed<Cylinder>(form.a, bodies.a.radius());
+  if (form.b != Form::usual) {
+    if (const auto* s = std::get_if<Capsule>(&bodies.b)) {
+      bodies.b = formed<Capsule>(form.b, s->radius());
+    } else {
+      bodies.b = formed<Cylinder>(form.b, std::get<Cylinder>(bodies.b).radius());
     }
-    case Proportions::needles: {
-      bodies.a = Cylinder(small, size);
-      constexpr auto ratio = static_cast<double>(extreme_ratio);
-      if (const auto* s = std::get_if<Capsule>(&bodies.b)) {
-        bodies.b = Capsule(s->radius() / ratio, s->radius());
-      } else {
-        const double length = std::get<Cylinder>(bodies.b).radius();
-        bodies.b = Cylinder(length / ratio, length);
-      }
-      return;
-    }
-    case Proportions::uneven: {
-      const double factor = 1 / static_cast<double>(draw_uneven_ratio(draw));
-      if (draw.coin()) {
-        bodies.a = std::get<Cylinder>(scaled(Shape(bodies.a), factor));
-      } else {
-        bodies.b = scaled(bodies.b, factor);
-      }
-      return;
+  }
+  if (proportions == Proportions::plate) {
+    const std::array<bool, 3> is_thin = draw_thin_extents(draw);
+    const double length = std::get<Box>(bodies.b).half_extents().x();
+    const auto extent = [&](std::size_t i) {
+      return is_thin[i] ? length / static_cast<double>(extreme_ratio) : length;
+    };
+    bodies.b = Box(Vec3(extent(0), extent(1), extent(2)));
+  } else if (proportions == Proportions::uneven) {
+    const double factor = 1 / static_cast<double>(draw_uneven_ratio(draw));
+    if (draw.coin()) {
+      bodies.a = std::get<Cylinder>(scaled(Shape(bodies.a), factor));
+    } else {
+      bodies.b = scaled(bodies.b, factor);
     }
   }
 }

@@ -68,40 +68,29 @@ Shape other_shape(Pair pair, const Lattice& l, const Sizes& s) {
 Sizes draw_sizes(Draw& draw, const Lattice& lattice, Proportions proportions) {
   const auto size = [&] { return lattice.draw_size(draw); };
   Sizes s{size(), size(), size(), size(), size()};
+  const auto form = [](Form f, Steps& radius, Steps& half) {
+    if (f == Form::usual) return;
+    half = radius;
+    (f == Form::needle ? radius : half) /= extreme_ratio;
+  };
+  const auto [form_a, form_b] = forms(proportions);
+  form(form_a, s.radius_a, s.half_a);
+  form(form_b, s.radius_b, s.half_b);
   const auto divide = [](std::initializer_list<Steps*> lengths, Steps by) {
     for (Steps* length : lengths) *length /= by;
   };
-  switch (proportions) {
-    case Proportions::usual:
-      break;
-    case Proportions::needle:
-      s.half_a = s.radius_a;
-      divide({&s.radius_a}, extreme_ratio);
-      break;
-    case Proportions::coin:
-      s.half_a = s.radius_a;
-      divide({&s.half_a}, extreme_ratio);
-      break;
-    case Proportions::plate: {
-      const std::array<bool, 3> is_thin = draw_thin_extents(draw);
-      s.other_b = s.half_b = s.radius_b;
-      if (is_thin[0]) divide({&s.radius_b}, extreme_ratio);
-      if (is_thin[1]) divide({&s.other_b}, extreme_ratio);
-      if (is_thin[2]) divide({&s.half_b}, extreme_ratio);
-      break;
-    }
-    case Proportions::needles:
-      s.half_a = s.radius_a, s.half_b = s.radius_b;
-      divide({&s.radius_a, &s.radius_b}, extreme_ratio);
-      break;
-    case Proportions::uneven: {
-      const std::int64_t ratio = draw_uneven_ratio(draw);
-      if (draw.coin()) {
-        divide({&s.radius_a, &s.half_a}, ratio);
-      } else {
-        divide({&s.radius_b, &s.half_b, &s.other_b}, ratio);
-      }
-      break;
+  if (proportions == Proportions::plate) {
+    const std::array<bool, 3> is_thin = draw_thin_extents(draw);
+    s.other_b = s.half_b = s.radius_b;
+    if (is_thin[0]) divide({&s.radius_b}, extreme_ratio);
+    if (is_thin[1]) divide({&s.other_b}, extreme_ratio);
+    if (is_thin[2]) divide({&s.half_b}, extreme_ratio);
+  } else if (proportions == Proportions::uneven) {
+    const std::int64_t ratio = draw_uneven_ratio(draw);
+    if (draw.coin()) {
+      divide({&s.radius_a, &s.half_a}, ratio);
+    } else {
+      divide({&s.radius_b, &s.half_b, &s.other_b}, ratio);
     }
   }
   return s;

@@ -181,6 +181,22 @@ double draw_clearance(Draw& draw, Clearance clearance, double size) {
   }
 }
 
+Forms forms(Proportions proportions) {
+  switch (proportions) {
+    case Proportions::needle:
+      return {Form::needle, Form::usual};
+    case Proportions::coin:
+      return {Form::coin, Form::usual};
+    case Proportions::needles:
+      return {Form::needle, Form::needle};
+    case Proportions::usual:
+    case Proportions::plate:
+    case Proportions::uneven:
+      break;
+  }
+  return {Form::usual, Form::usual};
+}
+
 std::array<bool, 3> draw_thin_extents(Draw& draw) {
   const bool plate = draw.coin();
   std::array<bool, 3> is_thin{!plate, !plate, !plate};

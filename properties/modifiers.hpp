@@ -67,6 +67,13 @@ double draw_clearance(Draw& draw, Clearance clearance, double size);
 
 /// A needle's length over its width, and so on.
 inline constexpr std::int64_t extreme_ratio = 1000;
+/// What proportions make of a round body: as it comes, long, or flat.
+enum class Form { usual, needle, coin };
+struct Forms {
+  Form a, b;
+};
+/// The forms of both bodies; what a plate and uneven bodies are is drawn.
+Forms forms(Proportions proportions);
 /// Which of a plate's or bar's extents are the short ones.
 std::array<bool, 3> draw_thin_extents(Draw& draw);
 /// The number by which the smaller of two uneven bodies is divided.

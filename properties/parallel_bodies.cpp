@@ -45,10 +45,11 @@ Arrangement diagonal(Pair pair) {
 /// Makes one of the bodies so long that a way out along the axes is longer than one sideways: one
 /// whose proportions are as they come.
 void lengthen(Sizes& s, Proportions proportions) {
-  if (proportions == Proportions::needles) return;  // both are long
-  const bool is_b = proportions == Proportions::usual || proportions == Proportions::uneven
-                        ? s.radius_b > s.radius_a
-                        : proportions != Proportions::plate;
+  const auto [form_a, form_b] = forms(proportions);
+  const bool is_a_usual = form_a == Form::usual;
+  const bool is_b_usual = form_b == Form::usual && proportions != Proportions::plate;
+  if (!is_a_usual && !is_b_usual) return;  // both are long
+  const bool is_b = is_a_usual && is_b_usual ? s.radius_b > s.radius_a : is_b_usual;
   (is_b ? s.half_b : s.half_a) += s.radius_a + s.radius_b;
 }
 
