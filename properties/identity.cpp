@@ -5,19 +5,13 @@
 #include <charconv>
 #include <variant>
 
+#include "properties/named.hpp"
 #include "properties/pose_class.hpp"
 #include "properties/stable_hash.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone {
 namespace {
-
-template <class Range>
-std::string joined(const Range& names) {
-  std::string all;
-  for (const auto& name : names) all += (all.empty() ? "" : ", ") + std::string(name);
-  return all;
-}
 
 Draw draw_of(const Identity& identity, Tape* tape) {
   const PoseClass& c = identity.pose_class;
@@ -34,12 +28,7 @@ Configuration made(const Identity& identity, Tape* tape) {
 }  // namespace
 
 Pair parse_pair(std::string_view name, const char* field) {
-  std::vector<std::string> names;
-  for (const Pair pair : all_pairs) {
-    if (name == pair_name(pair)) return pair;
-    names.emplace_back(pair_name(pair));
-  }
-  throw InvalidInput(field, in_quotes(name), "must be one of " + joined(names));
+  return named(all_pairs, name, field, pair_name);
 }
 
 std::string to_string(const Identity& identity) {
@@ -68,28 +57,12 @@ Identity parse_identity(std::string_view text) {
 }
 
 const char* group_name(Group group) {
-  switch (group) {
-    case Group::everyday:
-      return "everyday";
-    case Group::degenerate:
-      return "degenerate";
-    case Group::extreme:
-      return "extreme";
-    case Group::recorded:
-      return "recorded";
-    case Group::given:
-      return "given";
-  }
-  return "";
+  constexpr std::array names = {"everyday", "degenerate", "extreme", "recorded", "given"};
+  return names[static_cast<std::size_t>(group)];
 }
 
 Group parse_group(std::string_view name, const char* field) {
-  std::vector<std::string> names;
-  for (const Group group : all_groups) {
-    if (name == group_name(group)) return group;
-    names.emplace_back(group_name(group));
-  }
-  throw InvalidInput(field, in_quotes(name), "must be one of " + joined(names));
+  return named(all_groups, name, field, group_name);
 }
 
 namespace {
@@ -183,9 +156,10 @@ void check_groups(const std::vector<Pair>& pairs, const ClassSelection& selectio
     }
   }
   const auto names = [](const std::vector<Group>& groups) {
-    std::vector<std::string> result;
-    for (const Group group : groups) result.emplace_back(group_name(group));
-    return joined(result);
+    std::string all;
+    for (const Group group : groups)
+      all += (all.empty() ? "" : ", ") + std::string(group_name(group));
+    return all;
   };
   if (of_classes.empty()) return;  // no class of that name: check_pose_classes says what is near
   throw InvalidInput("--group", in_quotes(names(selection.groups)),

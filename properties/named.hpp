@@ -10,16 +10,22 @@
 
 namespace touchstone {
 
-/// The element of `all` whose member `name` is that name. Throws InvalidInput (with this field)
+/// The element of `all` to which `name_of` gives that name. Throws InvalidInput (with this field)
 /// that lists the existing names.
-template <class Range>
-const auto& named(const Range& all, std::string_view name, const char* field) {
+template <class Range, class NameOf>
+const auto& named(const Range& all, std::string_view name, const char* field,
+                  const NameOf& name_of) {
   std::string names;
   for (const auto& each : all) {
-    if (each.name == name) return each;
-    names += (names.empty() ? "" : ", ") + each.name;
+    if (name_of(each) == name) return each;
+    names += (names.empty() ? "" : ", ") + std::string(name_of(each));
   }
-  throw InvalidInput(field, '"' + std::string(name) + '"', "must be one of " + names);
+  throw InvalidInput(field, in_quotes(name), "must be one of " + names);
+}
+/// The element whose member `name` is that name.
+template <class Range>
+const auto& named(const Range& all, std::string_view name, const char* field) {
+  return named(all, name, field, [](const auto& each) -> std::string_view { return each.name; });
 }
 
 /// The parts of a name between separators; of a text without any, the text itself.

@@ -1,6 +1,7 @@
 #include "configuration.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace touchstone {
 
@@ -11,19 +12,9 @@ Pair pair_of(const Configuration& configuration) {
 }
 
 const char* pair_name(Pair pair) {
-  switch (pair) {
-    case Pair::plane:
-      return "cylinder-plane";
-    case Pair::sphere:
-      return "cylinder-sphere";
-    case Pair::capsule:
-      return "cylinder-capsule";
-    case Pair::cylinder:
-      return "cylinder-cylinder";
-    case Pair::box:
-      return "cylinder-box";
-  }
-  return "";
+  constexpr std::array names = {"cylinder-plane", "cylinder-sphere", "cylinder-capsule",
+                                "cylinder-cylinder", "cylinder-box"};
+  return names[static_cast<std::size_t>(pair)];
 }
 
 double smaller_size(const Configuration& configuration) {

@@ -1,6 +1,7 @@
 #include "reports/check_output.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <string_view>
@@ -87,17 +88,8 @@ std::string xml_escaped(const std::string& text) {
 }
 
 const char* result_name(ReplayedFailure::Result result) {
-  switch (result) {
-    case ReplayedFailure::Result::as_expected:
-      return "as expected";
-    case ReplayedFailure::Result::fixed:
-      return "fixed";
-    case ReplayedFailure::Result::changed:
-      return "changed";
-    case ReplayedFailure::Result::skipped:
-      return "skipped";
-  }
-  return "";
+  constexpr std::array names = {"as expected", "fixed", "changed", "skipped"};
+  return names[static_cast<std::size_t>(result)];
 }
 
 /// Whether it fails a run. A failure that is known may be fixed, but has to be asked.

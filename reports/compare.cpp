@@ -1,6 +1,7 @@
 #include "reports/compare.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <iterator>
@@ -437,17 +438,8 @@ Comparison::Side side(const Report& report) {
 }  // namespace
 
 const char* verdict_name(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::worse:
-      return "worse";
-    case Verdict::slower:
-      return "slower";
-    case Verdict::better:
-      return "better";
-    case Verdict::faster:
-      return "faster";
-  }
-  return "";
+  constexpr std::array names = {"worse", "slower", "better", "faster"};
+  return names[static_cast<std::size_t>(verdict)];
 }
 
 bool Comparison::has_regressed() const {

@@ -1,6 +1,7 @@
 #include "reports/search.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
@@ -15,6 +16,7 @@
 #include "properties/files/bytes.hpp"
 #include "properties/files/configuration_json.hpp"
 #include "properties/laws/failure_file.hpp"
+#include "properties/named.hpp"
 #include "properties/random_step.hpp"
 #include "properties/stable_hash.hpp"
 #include "reference/invalid_input.hpp"
@@ -307,29 +309,11 @@ std::vector<Failure> simplified_cases(const Cases& cases, const Candidate& candi
 }  // namespace
 
 const char* goal_name(Goal goal) {
-  switch (goal) {
-    case Goal::distance:
-      return "distance";
-    case Goal::normal:
-      return "normal";
-    case Goal::points:
-      return "points";
-    case Goal::hull:
-      return "hull";
-    case Goal::time:
-      return "time";
-  }
-  return "";
+  constexpr std::array names = {"distance", "normal", "points", "hull", "time"};
+  return names[static_cast<std::size_t>(goal)];
 }
 
-Goal parse_goal(std::string_view name) {
-  std::string names;
-  for (const Goal goal : all_goals) {
-    if (name == goal_name(goal)) return goal;
-    names += fmt::format("{}{}", names.empty() ? "" : ", ", goal_name(goal));
-  }
-  throw InvalidInput("--goal", in_quotes(name), "must be one of " + names);
-}
+Goal parse_goal(std::string_view name) { return named(all_goals, name, "--goal", goal_name); }
 
 SearchResult search(const Candidate& candidate, const Search& s,
                     const std::function<void(std::uint64_t, std::uint64_t)>& progress) {

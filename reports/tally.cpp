@@ -1,6 +1,7 @@
 #include "reports/tally.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <iterator>
@@ -319,17 +320,8 @@ std::optional<int> decade(double value) {
 }  // namespace
 
 const char* variable_name(Variable variable) {
-  switch (variable) {
-    case Variable::tilt:
-      return "tilt";
-    case Variable::depth:
-      return "depth";
-    case Variable::aspect:
-      return "aspect";
-    case Variable::distance:
-      return "distance";
-  }
-  return "";
+  constexpr std::array names = {"tilt", "depth", "aspect", "distance"};
+  return names[static_cast<std::size_t>(variable)];
 }
 
 std::optional<double> value_of(Variable variable, const Configuration& c, double signed_distance) {

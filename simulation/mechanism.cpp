@@ -1,6 +1,7 @@
 #include "simulation/mechanism.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <numbers>
@@ -74,15 +75,8 @@ Vec3 driven_spin(const Drive& drive, const Pose& start, double from, double to) 
 }
 
 const char* joint_kind_name(JointKind kind) {
-  switch (kind) {
-    case JointKind::fixed:
-      return "fixed";
-    case JointKind::hinge:
-      return "hinge";
-    case JointKind::slider:
-      break;
-  }
-  return "slider";
+  constexpr std::array names = {"fixed", "hinge", "slider"};
+  return names[static_cast<std::size_t>(kind)];
 }
 
 double Motor::target_at(double time) const {

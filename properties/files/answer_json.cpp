@@ -35,15 +35,8 @@ int digits_for(const oracle::Enclosure& e) {
 }
 
 const char* kind_name(oracle::NormalFamily::Kind kind) {
-  switch (kind) {
-    case oracle::NormalFamily::Kind::circle:
-      return "circle";
-    case oracle::NormalFamily::Kind::arc:
-      return "arc";
-    case oracle::NormalFamily::Kind::curve:
-      return "curve";
-  }
-  return "";
+  constexpr std::array names = {"circle", "arc", "curve"};
+  return names[static_cast<std::size_t>(kind)];
 }
 
 /// An arc runs right-handed about its axis, whichever way the normals point.
@@ -115,27 +108,13 @@ Outcome outcome_from_json(const json& value, const std::string& field) {
 }
 
 const char* ties_name(oracle::Ties ties) {
-  switch (ties) {
-    case oracle::Ties::unique:
-      return "unique";
-    case oracle::Ties::finite:
-      return "finite";
-    case oracle::Ties::continuum:
-      return "continuum";
-  }
-  return "";
+  constexpr std::array names = {"unique", "finite", "continuum"};
+  return names[static_cast<std::size_t>(ties)];
 }
 
 const char* patch_kind_name(oracle::ContactPatch::Kind kind) {
-  switch (kind) {
-    case oracle::ContactPatch::Kind::point:
-      return "point";
-    case oracle::ContactPatch::Kind::segment:
-      return "segment";
-    case oracle::ContactPatch::Kind::region:
-      return "region";
-  }
-  return "";
+  constexpr std::array names = {"point", "segment", "region"};
+  return names[static_cast<std::size_t>(kind)];
 }
 
 std::array<std::string, 2> decimals(const oracle::Enclosure& e) {

@@ -1,5 +1,6 @@
 #include "reports/test_data/test_data.hpp"
 
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <limits>
@@ -24,15 +25,8 @@ AnswerLimits answer_limits(const Configuration& c, const oracle::Truth& truth, c
 }
 
 const char* contact_name(AnswerLimits::Contact contact) {
-  switch (contact) {
-    case AnswerLimits::Contact::required:
-      return "required";
-    case AnswerLimits::Contact::optional:
-      return "optional";
-    case AnswerLimits::Contact::forbidden:
-      return "forbidden";
-  }
-  return "";
+  constexpr std::array names = {"required", "optional", "forbidden"};
+  return names[static_cast<std::size_t>(contact)];
 }
 
 double midpoint_error(const oracle::Enclosure& e) {
