@@ -9,7 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "properties/files/json_schema.hpp"
+#include "properties/files/json_schema_test.hpp"
 #include "reports/compare.hpp"
 #include "reports/report_json.hpp"
 #include "reports/stability/stability_members.hpp"

@@ -20,7 +20,7 @@
 #include "properties/files/disk.hpp"
 #include "properties/files/given_text.hpp"
 #include "properties/files/json_members.hpp"
-#include "properties/files/json_schema.hpp"
+#include "properties/files/json_schema_test.hpp"
 #include "properties/files/strict_json.hpp"
 #include "reference/invalid_input.hpp"
 

@@ -17,7 +17,7 @@ namespace touchstone {
 //     a.named("digest", m.digest, When::filled);
 //   }
 //
-// Archives are JSON both ways (json_members.hpp), its schema (json_schema.hpp) and bytes
+// Archives are JSON both ways (json_members.hpp), its schema (json_schema_test.hpp) and bytes
 // (bytes.hpp), which have no names. `Archive::reads` tells which way the values go.
 
 /// An archive of bytes. What goes between processes may be more than what files say, and then has a

@@ -11,7 +11,6 @@
 #include "candidates/readable.hpp"
 #include "properties/files/configuration_json.hpp"
 #include "properties/files/disk.hpp"
-#include "properties/files/json_schema.hpp"
 #include "properties/files/strict_json.hpp"
 #include "reference/invalid_input.hpp"
 #include "reference/support.hpp"
@@ -422,7 +421,7 @@ std::string schema_with_needs(const std::string& schema) {
   }
   result["$defs"] = definitions;
   result["properties"]["needs"]["items"]["oneOf"] = choices;
-  return schema_text(result);
+  return result.dump();
 }
 
 }  // namespace touchstone

@@ -1,4 +1,4 @@
-#include "properties/files/json_schema.hpp"
+#include "properties/files/json_schema_test.hpp"
 
 namespace touchstone {
 namespace {
