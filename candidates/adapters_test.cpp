@@ -182,6 +182,16 @@ constexpr Fairness documented[] = {
     {"mujoco+touchstone", 1e-13, 0},
 };
 
+TEST(Adapters, HaveADocumentedAccuracyEach) {
+  for (const Candidate* candidate : candidates_built_here()) {
+    const bool is_peer = std::ranges::count(peer_engines(), candidate->name) > 0;
+    if (is_peer || !candidate->models.empty()) continue;
+    EXPECT_TRUE(std::ranges::any_of(documented, [&](const Fairness& f) {
+      return f.candidate == candidate->name || f.candidate == candidate->family;
+    })) << candidate->name;
+  }
+}
+
 TEST(Adapters, GenericShallowDepthsAreAsExactAsDocumented) {
   constexpr std::uint64_t count = 100;
   for (const Pair pair : all_pairs) {
