@@ -54,7 +54,7 @@ std::string code_text(char32_t code, std::string_view backslash) {
                      0xdc00 + (number & 0x3ffU));
 }
 
-/// Of Terminal: "\x1b[31m", "\x1b[0m".
+/// Whether it begins with a colour as Terminal writes it: "\x1b[31m", "\x1b[0m".
 bool is_colour(std::string_view text) {
   const std::size_t end = text.find_first_not_of("0123456789", 2);
   return text.starts_with("\x1b[") && end != text.npos && end > 2 && text[end] == 'm';

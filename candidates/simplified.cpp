@@ -9,8 +9,7 @@
 // Conventions  Those of candidate.h.
 // Points       Halfway between the surfaces: one, or for spheres one for each that touches.
 // Threshold    Passed on. Separate prisms and boxes are answered with the largest gap, which is
-// less
-//              than their distance if vertices are closest.
+//              less than their distance if vertices are closest.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -28,7 +27,7 @@ struct ts_prepared {
   ModelPair pair;
   double threshold;
   std::vector<Separation> parts = {};
-  /// Of the last query, whose distance is asked for next.
+  /// Poses and distance of the last query, whose model_distance is asked for next.
   ts_pose pose_a = {}, pose_b = {};
   double distance = 0;
 };

@@ -73,7 +73,7 @@ PoseClass given_class(Pair pair);
 struct Identity {
   Identity(const PoseClass& c, std::uint64_t s, std::uint64_t i)
       : pose_class(c), seed(s), index(i) {}
-  /// Of a class by its name. Throws like PoseClass.
+  /// Finds the class by its name. Throws like PoseClass.
   Identity(Pair pair, std::string_view name, std::uint64_t s, std::uint64_t i)
       : Identity(PoseClass(pair, name), s, i) {}
 
@@ -120,7 +120,7 @@ void check_pose_classes(const std::vector<Pair>& pairs, const std::vector<std::s
 /// Likewise (field "--group") unless some class of the pairs belongs to one of the groups.
 void check_groups(const std::vector<Pair>& pairs, const ClassSelection& selection);
 
-/// Of a class by its name. Throws like PoseClass.
+/// Arrangement and modifiers of a class by its name. Throws like PoseClass.
 ClassParts parts_of(Pair pair, std::string_view pose_class);
 
 /// The configuration of that identity: the same bits on every call, in constant time.

@@ -146,7 +146,7 @@ std::map<std::string, std::string> digests_of(const Report& report) {
   return result;
 }
 
-/// Of answers that came in a file neither seed nor count says what the questions were.
+/// Compares digests of configurations that came in a file, which seed and count do not identify.
 void remark_given(Basis& basis, const Report& before, const Report& after) {
   auto old_digests = digests_of(before), new_digests = digests_of(after);
   const NameSet new_classes = class_names(after);

@@ -6,8 +6,8 @@
 
 namespace touchstone {
 
-/// Of the pairs that a report has in a group, on how many a candidate has a routine. What it shows
-/// over all pairs is over these alone.
+/// How many of a group's pairs in a report a candidate has a routine for. Its figures over all
+/// pairs are over these alone.
 struct CoveredPairs {
   std::size_t covered = 0, all = 0;
 

@@ -17,7 +17,8 @@ using CountByClass = std::map<std::pair<std::string, std::string>, std::uint64_t
 
 Key key_of(const ResultRow& row) { return {row.pair, row.pose_class, row.candidate}; }
 
-/// Of the rows of one list; `counts` takes how many configurations each of its classes has.
+/// Finds a contradiction between the rows of one list; adds to `counts` how many configurations
+/// each class has.
 std::optional<InvalidInput> between_rows(const Report& report, const std::vector<ResultRow>& rows,
                                          const std::string& list, CountByClass& counts) {
   std::set<std::string> candidates;

@@ -269,7 +269,7 @@ std::vector<ClimbTask> climbs_of(const Search& s, const std::vector<GoalResult>&
   return tasks;
 }
 
-/// Of each cause the one that is farthest beyond the bar, and how many climbs met it.
+/// The failure farthest beyond the bar for each cause, and how many climbs met that cause.
 struct Cases {
   std::map<Cause, std::pair<MetFailure, std::uint64_t>> worst;
 

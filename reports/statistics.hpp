@@ -14,7 +14,7 @@ namespace touchstone {
 /// JSON, which reports and campaigns are kept in, knows neither.
 double finite(double value);
 
-/// What is known of a value of which only the bin was kept: lower <= value <= upper.
+/// Bounds of a binned value: lower <= value <= upper.
 struct Bounds {
   double lower, upper;
 };
@@ -26,8 +26,8 @@ struct Quantiles {
   std::optional<Bounds> median_bounds = {}, p99_bounds = {};  ///< of binned values
 };
 
-/// Shares of which more is better: the 1st percentile is that of which 99% are no less. Of binned
-/// values, median and percentile are the smaller end of their bounds.
+/// Shares whose larger values are better: 99% are at least the 1st percentile. Median and
+/// percentile of binned values are the smaller end of their bounds.
 struct Shares {
   double mean, median, p1, min;
   std::optional<Bounds> median_bounds = {}, p1_bounds = {};  ///< of binned values
@@ -60,7 +60,7 @@ struct Statistics {
   std::map<int, std::uint64_t> points;  ///< contacts by their number of points
   std::optional<Quantiles> depth_error, normal_regret, normal_angle, point_error, deepest_error,
       model_error, solver_error;  ///< of magnitudes
-  /// Of the depth error with its sign: negative where a candidate is too deep.
+  /// Median of the signed depth error: negative where a candidate is too deep.
   std::optional<SignedMedian> bias;
   std::optional<Quantiles> severity;  ///< of all that is judged, missed contacts included
   /// Histograms of depth_error and normal_regret; absent where those are, and of binned values.

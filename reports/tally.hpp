@@ -42,7 +42,7 @@ enum class Resolution {
   eighths,  ///< by eighths of an octave: bounds of quantiles; memory stays flat
 };
 
-/// Magnitudes |value| of which quantiles are wanted: how often each occurs, at the resolution.
+/// How often each magnitude |value| occurs, at the resolution; gives their quantiles.
 /// Everything in it is a count or a maximum: sums of parts, added in any order, are the same to the
 /// last bit.
 class Magnitudes {
@@ -87,7 +87,7 @@ class Magnitudes {
   double max_ = 0;
 };
 
-/// Coverages (shares between 0 and 1) of which quantiles are wanted.
+/// How often each coverage (0 to 1) occurs; gives their quantiles.
 struct CoverageTally {
   /// Unit of `sum`: coverage is summed as an integer, for a sum of doubles depends on its order.
   static constexpr double unit = 0x1p-20;
@@ -100,7 +100,7 @@ struct CoverageTally {
   std::uint64_t sum = 0;  ///< of coverages, in units
 };
 
-/// Values with a sign, of which the median is wanted, too.
+/// Signed values, whose median is wanted beside their magnitudes' quantiles.
 struct SignedTally {
   void add(double value);
   void add(const SignedTally& other);

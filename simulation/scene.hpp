@@ -85,11 +85,11 @@ inline constexpr double max_friction = 1e6;  ///< Coulomb's coefficient
 /// simulated: ODE ends the process where a product of its inputs overflows or vanishes.
 void check_scene(const Scene& scene);
 
-/// Of a solid shape of uniform density, about its centre and along its own axes: closed forms;
-/// zeros for a plane, as for any shape without a formula here.
+/// Inertia of a solid shape of uniform density about its centre, along its own axes, in closed
+/// form; zeros for a plane, as for any shape without a formula here.
 Inertia inertia(const Shape& shape, double density);
 
-/// Of a body: the given one, or that of its shape at its density.
+/// A body's inertia: the given one, or that of its shape at its density.
 PosedInertia inertia(const Body& body);
 
 /// Why no body has these principal moments, as "not positive"; null if there can be one. The

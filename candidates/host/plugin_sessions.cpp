@@ -29,7 +29,8 @@ using Clock = std::chrono::steady_clock;
 /// Interval at which a candidate's use of processor time is checked, and that at which its waiting
 /// is, which costs a hundred times as much to find out.
 constexpr std::chrono::milliseconds check_interval(1), wait_interval(20);
-/// Of a command even processor time costs as much, as that of all its processes.
+/// Longer for a command: its processor time is the sum over all its processes, which costs as much
+/// to read as waiting does.
 constexpr std::chrono::milliseconds check_interval_of_command(10);
 
 /// Time in which a plug-in's process must fork a session.

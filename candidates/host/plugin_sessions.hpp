@@ -49,7 +49,8 @@ class PluginSessions : public Respondent {
   /// How the session has ended, if this message says so.
   std::optional<NoAnswer> end_told_by(const Reply& reply);
   NoAnswer end_of_session(int wait_status) const;
-  /// Of the question that a command has come to. `alone`: nothing else is asked in the session.
+  /// Time limit of the question that a command has come to. `alone`: nothing else is asked in the
+  /// session.
   TimeLimits::Limit limit_of(const SessionCommand& command, std::uint64_t progress,
                              bool alone) const;
   /// Hands over what is timed and warms up; false if the session died.

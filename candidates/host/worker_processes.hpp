@@ -32,8 +32,8 @@ struct TaskFailure : std::runtime_error {
 /// `take` as it arrives, in any order, and keeps none. Ends early, dropping unfinished tasks, when
 /// `go_on` (called at least every 100 ms) returns false. Returns whether all tasks were done. Where
 /// it ends early or a task fails, what workers have finished is passed first. `forget` is called
-/// first in each worker: it frees what tasks do not need, of which every process that a worker
-/// forks would copy the page tables.
+/// first in each worker: it frees memory that tasks do not need, so that the forks of workers copy
+/// fewer page tables.
 bool stream_from_processes(
     std::uint64_t count, unsigned workers, const std::function<std::string(std::uint64_t)>& task,
     const std::function<std::string(std::uint64_t)>& name,

@@ -197,7 +197,7 @@ void query_stalling(ts_prepared*, const ts_pose* a, const ts_pose*, const double
 
 // hiccuping
 
-/// Of all sessions.
+/// A count that all sessions share.
 int& hiccups() {
   static int* const shared = static_cast<int*>(
       mmap(nullptr, sizeof(int), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0));

@@ -23,7 +23,7 @@ std::optional<double> parse_double(std::string_view text);
 struct NumberRange {
   double min, max;
 };
-/// Of what must be positive. The ends leave products and quotients finite.
+/// Range of positive numbers whose products and quotients stay finite.
 inline constexpr NumberRange positive_numbers{1e-30, 1e30};
 
 struct CountRange {

@@ -64,7 +64,7 @@ void members(Archive& a, Suspect& s) {
 
 /// What the configurations of a chunk seem to break, in their order.
 struct ChunkResult {
-  /// Of each law, the configurations that it applies to; but for those without a routine.
+  /// Configurations that each law applies to and the candidate has a routine for.
   std::vector<std::uint64_t> tried;
   std::uint64_t unsupported = 0;
   std::vector<Suspect> suspects;
@@ -162,7 +162,7 @@ std::vector<Found> found(const std::vector<Chunk>& all, const std::vector<ChunkR
   return result;
 }
 
-/// Of each kind so many are asked again alone, the first and the last among them.
+/// Suspects of a kind that are asked again alone, first and last included.
 constexpr std::size_t asked_again_of_kind = 8;
 
 std::vector<std::size_t> sample(const std::vector<std::size_t>& places) {

@@ -90,8 +90,8 @@ Configuration simplest(const MetFailure& met, int max_trials, CandidateProcess& 
 Failure failure_of(const MetFailure& met, const Configuration& simple, CandidateProcess& candidate,
                    const Bar& bar);
 
-/// How hard a failure is simplified: the first of its name, which is shown; and one of other
-/// features, of which there may be a hundred.
+/// Trials to simplify a failure: the first of its name, which is shown, and each of the others,
+/// which may be a hundred.
 inline constexpr int trials_of_first = 500, trials_of_others = 100;
 
 /// The features of both bodies that meet along the optimal normal, A's first, as in "rim-face": of

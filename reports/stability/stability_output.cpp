@@ -57,7 +57,7 @@ struct PairRow {
   }
 };
 
-/// Of a row in which a candidate's name is indented below a pair's.
+/// Width of the first column, in which candidates' names are indented below a pair's.
 std::size_t name_width(const Names& candidates) {
   std::size_t width = 0;
   for (const std::string& name : candidates) width = std::max(width, 2 + name.size());

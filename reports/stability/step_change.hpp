@@ -67,7 +67,7 @@ class Step {
   double true_amplification() const;
 
  private:
-  /// Of two patches by their numbers, metres.
+  /// How far the contact patch moved between two optimal normals, by their numbers; metres.
   double patch_movement(std::size_t from, std::size_t to);
 
   const ExaminedPose &from_, &to_;

@@ -271,7 +271,7 @@ class BulletWorld : public EngineWorld {
   /// Index of the direction that a joint leaves free: along or about x.
   static int free_axis(const Joint& joint) { return joint.kind == JointKind::hinge ? 3 : 0; }
 
-  /// Of a hinge: angular velocity of its first body relative to the second, about the axis.
+  /// Angular velocity of a hinge's first body relative to the second, about its axis.
   static double angular_rate(const Constraint& made) {
     const btVector3 axis = made.getCalculatedTransformA().getBasis().getColumn(0);
     return axis.dot(made.getRigidBodyA().getAngularVelocity() -

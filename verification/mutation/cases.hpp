@@ -38,9 +38,9 @@ void members(Archive& a, Case& c) {
 
 constexpr double leaning_threshold = 0.01;
 
-/// Of every pair `count` configurations of each pose class of the default report, or `count` of
-/// the hostile class (of pairs without a search an eighth). The cache: truths take far longer than
-/// answers and are the same for all mutants.
+/// Caches configurations with their truths, which take far longer than answers and are the same for
+/// all mutants: `count` of each pair and pose class of the default report, or `count` of the
+/// hostile class of each pair (an eighth for pairs without a search).
 void write_cases(const std::string& file, const std::string& net, std::uint64_t count);
 
 /// Reads them one by one: most faults are found in the first few.

@@ -263,7 +263,7 @@ class Judge {
       }
     }
   }
-  /// Of the polygon, about `inside`; of a segment its middle.
+  /// Centroid of the patch: of a polygon by triangles about `inside`, of a segment its middle.
   static Vector centroid(const KnownPatch& patch, const Vector& inside, const Vector& n) {
     Real area = 0;
     Vector moment = Vector::Zero();

@@ -204,7 +204,7 @@ RawConfiguration with_poses_exchanged(RawConfiguration raw);
 /// `agreement` and `certified`.
 Findings judge_agreement(const Case& c, const Routines& routines);
 
-/// Of shapes, poses and batches that cannot be; independent of the cases.
+/// Checks that shapes, poses and batches that cannot be are refused; independent of the cases.
 Findings judge_refusals(const Routines& routines);
 
 }  // namespace touchstone::mutation

@@ -79,7 +79,7 @@ void judge_in_double(const RawConfiguration& raw, const void* made, const Routin
   routines.release(other);
 }
 
-/// Of the bodies as their poses are in float.
+/// Judges the batches in single precision, for the bodies with their poses rounded to float.
 void judge_in_float(RawConfiguration raw, const Routines& routines, std::size_t count,
                     double threshold, const Expect& expect) {
   raw.position_a = in_float(raw.position_a), raw.position_b = in_float(raw.position_b);

@@ -23,7 +23,7 @@ inline int active_fault() {
 }
 inline bool is(int fault) { return active_fault() == fault; }
 
-/// Of an expression of Eigen's the vector or matrix that it stands for.
+/// The vector or matrix that an expression of Eigen's stands for; anything else itself.
 template <class T>
 auto plain(const T& x) {
   if constexpr (requires { x.eval(); }) {

@@ -108,7 +108,7 @@ std::map<std::string, Findings> read_known(const char* file) {
   return known;
 }
 
-/// Of a configuration that is answered wrongly without a fault, other wrong answers tell nothing.
+/// Whether it is answered wrongly without any fault: other wrong answers tell nothing then.
 bool is_wrong_anyway(const Findings& known) {
   constexpr Check answers[] = {Check::finite,   Check::distance,  Check::regret,
                                Check::overlaps, Check::threshold, Check::clearance,
