@@ -1,5 +1,5 @@
 // The second oracle beside the first, and its certificates: of every pair, judged by
-// oracle/check_certificate.py, which shares nothing with us; and with one thing wrong.
+// oracle/check_certificate.py, which shares nothing with us.
 //
 // TOUCHSTONE_COUNT sets how many configurations of each class are certified; by default, for CI,
 // one of every fourth class.
@@ -10,7 +10,6 @@
 #include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <map>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -110,30 +109,22 @@ class Folder {
     std::ofstream(path_ / (name + ".json")) << certificate;
   }
 
-  /// What the checker says about each file, by name.
-  std::map<std::string, std::string> verdicts() const {
+  /// The checker accepts so many files, all that there are.
+  void expect_accepted(std::size_t count) const {
     const std::string command =
         std::string(TOUCHSTONE_PYTHON " " TOUCHSTONE_CHECKER " ") + path_.string() + "/*.json 2>&1";
     FILE* pipe = popen(command.c_str(), "r");
-    std::map<std::string, std::string> result;
+    std::size_t lines = 0;
     char buffer[1024];
-    while (fgets(buffer, sizeof buffer, pipe) != nullptr) {
-      const std::string line = buffer;
-      const auto end = line.find(".json: ");
-      if (end == std::string::npos) {
-        ADD_FAILURE() << line;
-        continue;
-      }
-      result[fs::path(line.substr(0, end)).filename()] = line.substr(end + 7);
+    for (; fgets(buffer, sizeof buffer, pipe) != nullptr; ++lines) {
+      EXPECT_THAT(buffer, HasSubstr(".json: accepted: "));
     }
-    exit_code_ = WEXITSTATUS(pclose(pipe));
-    return result;
+    EXPECT_EQ(lines, count);
+    EXPECT_EQ(WEXITSTATUS(pclose(pipe)), 0);
   }
-  int exit_code() const { return exit_code_; }
 
  private:
   fs::path path_;
-  mutable int exit_code_ = -1;
 };
 
 std::vector<Identity> identities(Pair pair) {
@@ -149,55 +140,12 @@ std::vector<Identity> identities(Pair pair) {
   return result;
 }
 
-/// Another last digit of the numerator.
-std::string with_another_digit(std::string fraction) {
-  const auto slash = fraction.find('/');
-  char& digit = fraction[(slash == std::string::npos ? fraction.size() : slash) - 1];
-  digit = digit == '9' ? '8' : static_cast<char>(digit + 1);
-  return fraction;
-}
-
-json with_changed_pose_digit(json certificate, std::size_t which) {
-  json& pose = certificate["exact"][which % 2 ? "pose_a" : "pose_b"];
-  json& number = which % 4 < 2 ? pose["position"][which % 3] : pose["orientation"][which % 4];
-  number = with_another_digit(number);
-  return certificate;
-}
-
-/// One end moved inwards by a thousandth of the width.
-json with_narrowed_end(json certificate, int end) {
-  json& ends = certificate["signed_distance"];
-  const mpq_class lo(ends[0].get<std::string>()), hi(ends[1].get<std::string>());
-  mpq_class moved = end == 0 ? lo : hi;
-  moved += (end == 0 ? 1 : -1) * (hi - lo) / 1000;
-  ends[static_cast<std::size_t>(end)] = moved.get_str();
-  return certificate;
-}
-
-json with_a_cell_less(json certificate, std::size_t which) {
-  if (!certificate.contains("cells")) {
-    certificate.erase("pair");
-    return certificate;
-  }
-  json& cells = certificate["cells"];
-  cells.erase(which % cells.size());
-  return certificate;
-}
-
-/// A cell's point of A three times as far from A's centre: outside.
-json with_a_point_outside(json certificate, std::size_t which) {
-  const bool has_cells = certificate.contains("cells");
-  json& entry =
-      has_cells ? certificate["cells"][which % certificate["cells"].size()] : certificate["pair"];
-  for (json& x : entry["a"]) x = mpq_class(mpq_class(x.get<std::string>()) * 1000).get_str();
-  return certificate;
-}
-
 class Certificates : public testing::TestWithParam<Pair> {};
 
-TEST_P(Certificates, AreAcceptedAndEveryChangeIsRejected) {
-  const Folder good, bad;
-  std::size_t number = 0;
+// oracle/check_certificate_test.py and oracle/forge_certificates.py hold what must be rejected.
+TEST_P(Certificates, AreAcceptedAndEncloseTheTruth) {
+  const Folder folder;
+  std::size_t count = 0;
   for (const Identity& id : identities(GetParam())) {
     SCOPED_TRACE(to_string(id));
     const Configuration c = make_configuration(id);
@@ -210,55 +158,10 @@ TEST_P(Certificates, AreAcceptedAndEveryChangeIsRejected) {
         pose_class == "general+deep") {
       EXPECT_LE(proof.hi - proof.lo, mpq_class(width) * mpq_class(larger_size(c)));
     }
-    const json certificate = json::parse(certificate_json(proof, c));
-    const std::string name = pose_class + "-" + std::to_string(id.index);
-    good.write(name, certificate.dump());
-    bad.write(name + " pose", with_changed_pose_digit(certificate, number).dump());
-    bad.write(name + " lower", with_narrowed_end(certificate, 0).dump());
-    bad.write(name + " upper", with_narrowed_end(certificate, 1).dump());
-    bad.write(name + " cell", with_a_cell_less(certificate, 7 * number).dump());
-    bad.write(name + " point", with_a_point_outside(certificate, 7 * number).dump());
-    ++number;
+    folder.write(pose_class + "-" + std::to_string(id.index), certificate_json(proof, c));
+    ++count;
   }
-  const auto accepted = good.verdicts();
-  EXPECT_EQ(good.exit_code(), 0);
-  EXPECT_EQ(accepted.size(), number);
-  for (const auto& [name, verdict] : accepted) {
-    EXPECT_THAT(verdict, testing::StartsWith("accepted: ")) << name;
-  }
-  const auto rejected = bad.verdicts();
-  EXPECT_EQ(bad.exit_code(), 1);
-  EXPECT_EQ(rejected.size(), 5 * number);
-  const std::map<std::string, std::string> reasons = {
-      {"pose", "two forms of the input"},
-      {"lower", "gap along the normal is below lo|no multiple"},
-      {"upper", "hi does not bound cell|farther apart than hi|no multiple"},
-      {"cell", "do not cover all directions|certificate.cells is missing"},
-      {"point", "point outside body a"}};
-  for (const auto& [name, verdict] : rejected) {
-    EXPECT_THAT(verdict, testing::StartsWith("rejected: ")) << name;
-    EXPECT_THAT(verdict, testing::ContainsRegex(reasons.at(name.substr(name.rfind(' ') + 1))))
-        << name;
-  }
-}
-
-TEST_P(Certificates, DoNotHoldForAPoseOneUlpAway) {
-  // Both forms of the input changed alike: only the proof can tell.
-  const Folder folder;
-  const std::size_t count = 10;
-  for (std::uint64_t i = 0; i < count; ++i) {
-    const Configuration c = make_configuration({GetParam(), "general-deep", 20261121, i});
-    const audit::Certificate proof = audit::certify(c, budget);
-    Vec3 position = c.pose_a.position();
-    for (double& x : position) x = std::nextafter(x, HUGE_VAL);
-    const Configuration moved{c.a, Pose(position, c.pose_a.orientation()), c.b, c.pose_b};
-    folder.write(std::to_string(i), certificate_json(proof, moved));
-  }
-  const auto verdicts = folder.verdicts();
-  EXPECT_EQ(verdicts.size(), count);
-  for (const auto& [name, verdict] : verdicts) {
-    EXPECT_THAT(verdict, testing::StartsWith("rejected: ")) << name;
-  }
+  folder.expect_accepted(count);
 }
 
 /// The configuration with every length times 2^exponent.
@@ -295,12 +198,7 @@ TEST_P(Certificates, OfTheSmallestAndLargestLengthsAreAccepted) {
       ++count;
     }
   }
-  const auto verdicts = folder.verdicts();
-  EXPECT_EQ(folder.exit_code(), 0);
-  EXPECT_EQ(verdicts.size(), count);
-  for (const auto& [name, verdict] : verdicts) {
-    EXPECT_THAT(verdict, testing::StartsWith("accepted: ")) << name;
-  }
+  folder.expect_accepted(count);
 }
 
 TEST_P(Certificates, OfMixedExtremesAreAccepted) {
@@ -322,12 +220,7 @@ TEST_P(Certificates, OfMixedExtremesAreAccepted) {
       folder.write(std::to_string(count++), certificate_json(audit::certify(c, {1e-6, 400}), c));
     }
   }
-  const auto verdicts = folder.verdicts();
-  EXPECT_EQ(folder.exit_code(), 0);
-  EXPECT_EQ(verdicts.size(), count);
-  for (const auto& [name, verdict] : verdicts) {
-    EXPECT_THAT(verdict, testing::StartsWith("accepted: ")) << name;
-  }
+  folder.expect_accepted(count);
 }
 
 INSTANTIATE_TEST_SUITE_P(, Certificates, testing::ValuesIn(all_pairs), [](const auto& pair) {
