@@ -205,12 +205,6 @@ const char* outcome_name(Outcome outcome) { return kind_of(outcome).name; }
 bool is_judged(Outcome outcome) { return kind_of(outcome).is_judged; }
 bool is_of_points(Outcome outcome) { return kind_of(outcome).is_of_points; }
 
-std::optional<Outcome> find_outcome(std::string_view name) {
-  const auto found = std::find_if(all_outcomes.begin(), all_outcomes.end(),
-                                  [&](Outcome o) { return name == outcome_name(o); });
-  return found == all_outcomes.end() ? std::nullopt : std::optional(*found);
-}
-
 bool agrees(Outcome outcome) { return outcome == Outcome::agree || outcome == Outcome::unseen; }
 
 const char* status_name(ts_status status) {

@@ -3,7 +3,6 @@
 #include <array>
 #include <memory>
 #include <optional>
-#include <string_view>
 #include <vector>
 
 #include "candidates/answer.hpp"
@@ -60,8 +59,6 @@ inline constexpr std::array all_outcomes = {
     Outcome::off_body,        Outcome::no_points,      Outcome::unseen};
 /// "agree", "missed", "wrong-normal", …
 const char* outcome_name(Outcome outcome);
-/// The outcome of that name, if there is one.
-std::optional<Outcome> find_outcome(std::string_view name);
 const char* status_name(ts_status status);
 /// Does the outcome belong to an answer that could be judged, so that it has a severity?
 bool is_judged(Outcome outcome);

@@ -90,22 +90,17 @@ void read_vector(const json& value, const std::string& field, double (&v)[3]) {
   }
 }
 
-ts_status status_from_json(const json& value, const std::string& field) {
-  for (const ts_status status :
-       {TS_CONTACT, TS_NONE, TS_UNSUPPORTED, TS_FAILED, TS_CRASHED, TS_TIMED_OUT}) {
-    if (value == status_name(status)) return status;
+/// The one of `all` whose name stands there.
+template <class Values, class Value>
+Value value_named(const json& name, const std::string& field, const Values& all,
+                  const char* (*name_of)(Value), const char* must) {
+  for (const Value value : all) {
+    if (name == name_of(value)) return value;
   }
-  throw InvalidInput(field, shown(value), "must be a status that an answer has, as \"contact\"");
+  throw InvalidInput(field, shown(name), must);
 }
 
 }  // namespace
-
-Outcome outcome_from_json(const json& value, const std::string& field) {
-  if (value.is_string()) {
-    if (const auto outcome = find_outcome(value.get_ref<const std::string&>())) return *outcome;
-  }
-  throw InvalidInput(field, shown(value), "must be one that a score has");
-}
 
 const char* ties_name(oracle::Ties ties) {
   constexpr std::array names = {"unique", "finite", "continuum"};
@@ -163,7 +158,10 @@ json to_json(const Answer& answer, const Score& score, Order order) {
 ts_answer answer_from_json(const json& value, const std::string& path) {
   const std::string prefix = path.empty() ? "" : path + '.';
   ts_answer answer{};
-  answer.status = status_from_json(member(value, "status", path), prefix + "status");
+  answer.status = value_named(
+      member(value, "status", path), prefix + "status",
+      std::array{TS_CONTACT, TS_NONE, TS_UNSUPPORTED, TS_FAILED, TS_CRASHED, TS_TIMED_OUT},
+      status_name, "must be a status that an answer has, as \"contact\"");
   if (answer.status != TS_CONTACT) return answer;
   answer.signed_distance =
       number_or_nan(member(value, "signed_distance", path), prefix + "signed_distance");
@@ -193,7 +191,8 @@ Score score_from_json(const json& answer, const std::string& answer_path) {
   const json& value = member(answer, "score", answer_path);
   require_object(value, path);
   Score score;
-  score.outcome = outcome_from_json(member(value, "outcome", path), path + ".outcome");
+  score.outcome = value_named(member(value, "outcome", path), path + ".outcome", all_outcomes,
+                              outcome_name, "must be one that a score has");
   for (const auto& [name, number] : numbers_of(score)) {
     if (value.contains(name)) *number = number_or_null(value[name], path + "." + name);
   }

@@ -37,7 +37,5 @@ nlohmann::json to_json(const Answer& answer, const Score& score, Order order = O
 /// normal has the answer's. `path` names the answer in errors, which are InvalidInput.
 ts_answer answer_from_json(const nlohmann::json& answer, const std::string& path);
 Score score_from_json(const nlohmann::json& answer, const std::string& path);
-/// Reads an outcome's name. Throws InvalidInput with this field.
-Outcome outcome_from_json(const nlohmann::json& value, const std::string& field);
 
 }  // namespace touchstone
