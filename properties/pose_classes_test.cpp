@@ -196,9 +196,9 @@ TEST(PoseClasses, DiagonalBodiesLieBeyondCapAndSide) {
 TEST(PoseClasses, ContainedBodiesComeFreeSidewaysInOneSense) {
   for (const Pair pair : pairs_of_axes) {
     int wider_a = 0;
-    std::vector<std::string> names;
-    for (const char* proportions : {"", "+needle", "+coin", "+plate", "+uneven", "+needles"}) {
-      names.push_back(std::string("contained") + proportions);
+    std::vector<std::string> names = {"contained"};
+    for (const Modifier& m : all_modifiers()) {
+      if (m.kind == ModifierKind::proportions) names.push_back("contained+" + m.name);
     }
     expect_of_each({pair}, names, [&](const Configuration& c, Pair) {
       const Vec3 half = half_extents_of_b(c);
