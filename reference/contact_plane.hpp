@@ -5,8 +5,8 @@
 #include <tuple>
 #include <utility>
 
-#include "arc_polygon.hpp"
 #include "contact.hpp"
+#include "curves.hpp"
 #include "facing_feature.hpp"
 #include "manifold.hpp"
 
@@ -145,9 +145,11 @@ class ContactPlane {
   }
   void add(const Vec2& p, const Surfaces& s) const { add(p, s.a.at(p), s.b.at(p)); }
 
-  /// How much of the slack is left above a clearance that should be the least one.
-  double room_above(double clearance) const {
-    return to_.margins.slack - (clearance - to_.contact.signed_distance);
+  /// How much of the slack is left above a clearance that should be the least one, where so large a
+  /// part of a cap faces the other body; at least 0. What of a cap lies within it is as wide as its
+  /// root.
+  double room_above(double clearance, double part) const {
+    return std::max(part * part * (to_.margins.slack - (clearance - to_.contact.signed_distance)), 0.0);
   }
 
  private:

@@ -1,7 +1,7 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
 #include <Eigen/Core>
@@ -16,17 +16,23 @@ using Vec2 = Eigen::Vector2d;
 inline double cross2(const Vec2& x, const Vec2& y) { return x.x() * y.y() - x.y() * y.x(); }
 inline Vec2 turned_left(const Vec2& v) { return {-v.y(), v.x()}; }
 
-/// Counter-clockwise angle in [0, 2π) from p to q on a circle; 0 where rounding has put q a hair
-/// behind p.
-inline double angle_between(const Vec2& p, const Vec2& q) {
-  constexpr double hair = 1e-7;
-  const double angle = std::atan2(cross2(p, q), p.dot(q));
-  return angle >= 0 ? angle : angle > -hair ? 0 : angle + 2 * std::numbers::pi;
+/// The number of an interval that is nearest to x; of an empty one, `lo`.
+inline double within(double x, double lo, double hi) { return std::max(lo, std::min(x, hi)); }
+/// From 0 where x is `from` to 1 where it is `to`, and no farther.
+inline double ramp(double x, double from, double to) {
+  return within((x - from) / (to - from), 0, 1);
 }
 
 struct Circle {
   Vec2 centre;
   double radius;
+};
+
+/// The points of a plane with |across·p − middle| <= half_width: what lies between two opposite
+/// edges of a face.
+struct Strip {
+  Vec2 across;
+  double middle, half_width;
 };
 
 /// A point (x, y) against the ellipse with half axes a >= b >= 0, a > 0, along the frame's axes.

@@ -124,12 +124,11 @@ void segment_on_flat(const Manifold& to, const FacingFeature& segment, const Fac
   };
   const double at_lo = clearance(range.lo), at_hi = clearance(range.hi);
   const double rise = std::abs(at_hi - at_lo);
-  const double room = std::max(0.0, plane.room_above(std::min(at_lo, at_hi)));
-  if (rise > room) {
-    const double part = is_one_point(room, rise) ? 0 : room / rise;
-    const double kept = part * (range.hi - range.lo);
-    (at_lo < at_hi ? range.hi = range.lo + kept : range.lo = range.hi - kept);
-  }
+  const double room = plane.room_above(std::min(at_lo, at_hi), flat.part);
+  double part = segment.part;
+  if (rise > room) part *= is_one_point(room, rise) ? 0 : room / rise;
+  const double kept = part * (range.hi - range.lo);
+  if (part < 1) (at_lo < at_hi ? range.hi = range.lo + kept : range.lo = range.hi - kept);
   const auto add_at = [&](double t) {
     const Vec2 p = l.at(t);
     const double on_line = l.height + t * l.rise, on_flat = surface.at(p);
@@ -187,8 +186,8 @@ void segment_on_segment(const Manifold& to, const FacingFeature& f, const Facing
     if (const double there = clearance(lowest); there <= least) deepest = lowest, least = there;
   }
   // Less of the slack as the lines come to be crossed, so that the points have drawn together then.
-  const double room =
-      std::min(plane.room_above(least), plane.margins().slack * (2 - 2 * std::abs(turn) / crossed));
+  const double room = std::min(plane.room_above(least, 1),
+                               plane.margins().slack * (2 - 2 * std::abs(turn) / crossed));
   // Surfaces that have fallen off further hardly face each other.
   constexpr double facing = 0.75;
   const double beside = std::max(std::abs(y0 + y1 * range.lo), std::abs(y0 + y1 * range.hi));

@@ -22,8 +22,8 @@ bool is_flat(const FacingFeature& f) { return f.kind == Kind::disc || f.kind == 
 ///   segment, flat    the ends of what lies on it (line_contact.cpp)
 ///   disc, rectangle  the corners of what they share (flat_contact.cpp)
 ///   disc, disc       the same, in the plane of the smaller one (flat_contact.cpp)
-void add_points_of_whole(Contact& contact, const FacingFeature& a, const FacingFeature& b,
-                         const Vec3& origin, const Margins& margins) {
+void add_points_of_features(Contact& contact, const FacingFeature& a, const FacingFeature& b,
+                            const Vec3& origin, const Margins& margins) {
   const bool a_is_point = a.kind == Kind::point, b_is_point = b.kind == Kind::point;
   if (a_is_point || b_is_point) {
     const bool take_a = a_is_point && (!b_is_point || a.sine >= b.sine);
@@ -57,27 +57,6 @@ double max_depth(const Contact& contact) {
   double depth = -std::numeric_limits<double>::infinity();
   for (const ContactPoint& p : contact.points()) depth = std::max(depth, p.depth);
   return depth;
-}
-
-/// Draws the points together to that part of their way from the deepest one. One of the features is
-/// flat, so that points between two of both bodies are of both bodies.
-[[gnu::noinline, gnu::cold]] void draw_together(Contact& contact, double part) {
-  const Contact whole = contact;
-  const ContactPoint* to = deepest_point(whole);
-  contact.clear_points();
-  for (const ContactPoint& p : whole.points()) {
-    contact.add_point(to->position + part * (p.position - to->position),
-                      to->depth + part * (p.depth - to->depth));
-  }
-}
-
-/// Adds the points where two features face each other.
-void add_points_of_features(Contact& contact, const FacingFeature& a, const FacingFeature& b,
-                            const Vec3& origin, const Margins& margins) {
-  add_points_of_whole(contact, a, b, origin, margins);
-  // Two segments draw together by themselves (line_contact.cpp).
-  const bool has_flat = is_flat(a) || is_flat(b);
-  if (const double part = a.part * b.part; part < 1 && has_flat) draw_together(contact, part);
 }
 
 /// Adds a point of the whole depth, where those features meet that face each other but for

@@ -185,7 +185,10 @@ TEST(Manifold, CoversTheDiscThatAFaceCuts) {
                       }};
     const std::size_t count = answer.points().size();
     ++met[count];
-    EXPECT_GE(coverage(patch, answer), bar(count))
+    // Where an edge cuts off less than a hundredth, the three points of a whole cap are handed
+    // over.
+    const double cut = 1 - (half_sides - centre.cwiseAbs()).minCoeff();
+    EXPECT_GE(coverage(patch, answer), bar(cut < 0.01 ? 3 : count))
         << count << " " << centre.transpose() << " in " << half_sides.transpose();
   }
   for (const int count : {3, 4, 5, 6, 7, 8}) EXPECT_GT(met[count], 0) << count;
