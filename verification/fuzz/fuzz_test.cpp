@@ -90,6 +90,18 @@ TEST(FuzzDisagreement, SeesEveryWrongAnswer) {
   EXPECT_TRUE(is_seen([](OwnAnswers& a) { a.certified.error_bound = -1; }));
 }
 
+// The distance of two bodies of 1e-200, a thousand of their sizes apart, has a square that
+// vanishes.
+TEST(FuzzDisagreement, MeasuresTinyBodiesThatAreApartByTheirDistance) {
+  const double size = 1e-200;
+  const Configuration c{Cylinder(size, size), Pose({1e3 * size, 0, 0}, {1, 0, 0, 0}),
+                        Cylinder(size, size), Pose()};
+  OwnAnswers answers = own_answers(c);
+  EXPECT_FALSE(disagreement(c, answers, nullptr));
+  answers.distance.value += 5e-14 * 1e3 * size;
+  EXPECT_FALSE(disagreement(c, answers, nullptr));
+}
+
 TEST(FuzzCorpus, HoldsNoDisagreement) {
   int count = 0;
   for (const auto& file : std::filesystem::directory_iterator(TOUCHSTONE_FUZZ_CORPUS)) {
