@@ -163,11 +163,13 @@ void CapOnFace::cut_off(const Vec2& up, double height, std::array<Vec2, max_poin
   const Vec2 along = turned_left(up);
   const double half = std::sqrt(std::max(0.0, (radius_ - height) * (radius_ + height)));
   double lo = -half, hi = half;
+  // Where a line runs along an edge rounding would say where they cross.
+  constexpr double parallel = 1e-9;
   for (int i = 0; i < 4; ++i) {
     const double rises = outward_[i].dot(along);
     const double left = sides_[i].distance - height * outward_[i].dot(up);
-    if (rises > 0) hi = std::min(hi, left / rises);
-    if (rises < 0) lo = std::max(lo, left / rises);
+    if (rises > parallel) hi = std::min(hi, left / rises);
+    if (rises < -parallel) lo = std::max(lo, left / rises);
   }
   for (int i = 0; i < count; ++i) {
     if (up.dot(points[i]) > height) {

@@ -112,6 +112,16 @@ TEST(CapOnFace, WhatIsAboveALineComesDownToThePatchOnIt) {
   for (int i = 0; i < 4; ++i) EXPECT_NEAR((points[i] - expected[i]).norm(), 0, 1e-15) << i;
 }
 
+// Where they cross would be what rounding says.
+TEST(CapOnFace, PointsStayOnAnEdgeAlongALine) {
+  const CapOnFace patch = cut_disc({-far, -far}, {far, -0.3});
+  std::array<Vec2, CapOnFace::max_points> points{Vec2(-0.9, -0.3 + 1e-16), Vec2(0.9, -0.3 + 1e-16)};
+  for (const double turn : {-1e-16, 1e-16}) {
+    patch.cut_off(Vec2(turn, 1), -0.3, points, 2);
+    for (int i = 0; i < 2; ++i) EXPECT_NEAR(points[i].x(), i == 0 ? -0.9 : 0.9, 1e-15) << turn;
+  }
+}
+
 /// The place of a disc in strips that is farthest along a direction, by trying all that may be: the
 /// circle's own, and where edges cross it and each other. None where the disc is not in them.
 std::optional<Vec2> farthest_of_all(const Circle& circle, const std::array<Strip, 2>& strips,
