@@ -43,9 +43,9 @@ Vec2 CapOnCap::farthest(const Vec2& unit) const {
   const auto is_in = [](const Circle& c, const Vec2& p) {
     return (p - c.centre).squaredNorm() <= c.radius * c.radius;
   };
-  const Vec2 top1 = circle1_.centre + circle1_.radius * unit;
+  Vec2 top1 = circle1_.centre + circle1_.radius * unit;
   if (is_in(circle2_, top1)) return top1;
-  const Vec2 top2 = circle2_.centre + circle2_.radius * unit;
+  Vec2 top2 = circle2_.centre + circle2_.radius * unit;
   if (is_in(circle1_, top2)) return top2;
   return unit.dot(left_) > unit.dot(right_) ? left_ : right_;
 }
