@@ -149,7 +149,8 @@ class ContactPlane {
   /// part of a cap faces the other body; at least 0. What of a cap lies within it is as wide as its
   /// root.
   double room_above(double clearance, double part) const {
-    return std::max(part * part * (to_.margins.slack - (clearance - to_.contact.signed_distance)), 0.0);
+    return std::max(part * part * (to_.margins.slack - (clearance - to_.contact.signed_distance)),
+                    0.0);
   }
 
  private:
