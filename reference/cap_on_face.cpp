@@ -69,7 +69,7 @@ Vec2 CapOnFace::nearest() const {
 }
 
 Vec2 CapOnFace::farthest(const Vec2& unit) const {
-  const Vec2 arm = radius_ * unit;
+  Vec2 arm = radius_ * unit;
   const double x = outward_[0].dot(arm), y = outward_[1].dot(arm);
   if (x <= sides_[0].distance && y <= sides_[1].distance && -x <= sides_[2].distance &&
       -y <= sides_[3].distance) {
