@@ -107,8 +107,7 @@ struct ErrorStatistics {
 };
 void members(auto& a, ErrorStatistics& e) {
   members(a, e.quantiles);
-  constexpr Rule half_decades{.meaning = "by half decades"};
-  a.written("histogram", e.histogram, half_decades, When::filled);
+  a.written("histogram", e.histogram, When::filled);
 }
 
 void members(auto& a, SignedMedian& m) {
@@ -170,8 +169,7 @@ void members(auto& a, Statistics& s) {
   a.written("normal_angle", s.normal_angle);
   a.written("model_error", s.model_error);
   a.written("solver_error", s.solver_error);
-  constexpr Rule by_number{.meaning = "number of contacts by number of points"};
-  a.written("points", s.points, by_number);
+  a.written("points", s.points);
 }
 
 /// The three numbers of a spread, all of them null where there is none.

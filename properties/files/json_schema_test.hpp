@@ -133,7 +133,6 @@ nlohmann::ordered_json JsonSchema::of(const Rule& rule) {
   } else if constexpr (requires { typename T::mapped_type; }) {
     using Key = typename T::key_type;
     json result = {{"type", "object"}};
-    if (rule.meaning) result["description"] = rule.meaning;
     if constexpr (std::is_enum_v<Key>) result["propertyNames"] = of<Key>();
     if constexpr (std::is_same_v<Key, int>) result["propertyNames"] = {{"pattern", "^[0-9]+$"}};
     if constexpr (std::is_same_v<Key, char>) result["propertyNames"] = {{"maxLength", 1}};
@@ -152,9 +151,7 @@ nlohmann::ordered_json JsonSchema::of(const Rule& rule) {
     }
     return reference(name);
   } else {
-    json result = object(blank<T>());
-    if (rule.meaning) result["description"] = rule.meaning;
-    return result;
+    return object(blank<T>());
   }
 }
 

@@ -34,8 +34,7 @@ struct Rule {
   const char* must = nullptr;  ///< what errors say: "must be a number from 0 to 1"
   std::vector<std::string> (*one_of)() = nullptr;  ///< the texts that there are
   const char* pattern = nullptr;                   ///< regular expression of a text
-  const char* name = nullptr;     ///< of its definition in a schema, where several members have it
-  const char* meaning = nullptr;  ///< a sentence for a schema
+  const char* name = nullptr;  ///< of its definition in a schema, where several members have it
 
   bool allows(double x) const { return (is_above_min ? x > min : x >= min) && x <= max; }
 };
