@@ -12,7 +12,7 @@
  * The process that has loaded the plug-in is forked for every session of questions. Threads do not
  * survive a fork: start none when the plug-in is loaded, but in `after_fork`, or ask to be run
  * unforked. An engine in a language with a runtime of its own is better asked as a command
- * (docs/process-candidates.md).
+ * (docs/engine.md).
  *
  *   cc -shared -fPIC -I PREFIX/include my_engine.c -o my_engine.so -lm
  *   touchstone --load ./my_engine.so report */

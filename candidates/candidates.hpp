@@ -27,12 +27,12 @@ struct Added {
 /// The description of one candidate. What is not ours is called in other processes only
 /// (candidate_process.hpp).
 struct Candidate {
-  /// A shared object (docs/plug-ins.md).
+  /// A shared object (docs/engine.md).
   struct Plugin {
     std::filesystem::path file;  ///< absolute
     int index;                   ///< among the plug-in's candidates
   };
-  /// A program that speaks as docs/process-candidates.md says.
+  /// A program that speaks as candidates/host/protocol.md says.
   struct Command {
     std::string line;              ///< for /bin/sh -c
     std::filesystem::path folder;  ///< in which it runs, absolute
@@ -108,7 +108,7 @@ void add_file(const std::filesystem::path& file);
 
 /// Adds the candidate that a command for /bin/sh says it is, and that runs in this folder. Throws
 /// InvalidInput (field "--candidate-command") if it does not say so as
-/// docs/process-candidates.md specifies, or has a name that is taken.
+/// candidates/host/protocol.md specifies, or has a name that is taken.
 void add_command(const std::string& command,
                  const std::filesystem::path& folder = std::filesystem::current_path());
 

@@ -103,7 +103,7 @@ void add_export(Program& program) {
       "  touchstone export --out truth.csv\n"
       "  touchstone export --pair cylinder-box --count 100 --out truth.npz\n"
       "  touchstone export --suite | gzip -9n > touchstone-suite-1.csv.gz\n"
-      "What the files hold: docs/suite.md.");
+      "What the files hold: docs/your-poses.md.");
   command.runs([options] { return run_export(*options); });
 }
 

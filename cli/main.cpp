@@ -75,7 +75,7 @@ int run_program(int argc, char** argv) {
       "A plug-in with candidates of your own, or a list of commands (.txt); may be repeated");
   program.repeated(
       "--candidate-command", "COMMAND", [](const std::string& command) { add_command(command); },
-      "A command that is a candidate (docs/process-candidates.md); may be repeated");
+      "A command that is a candidate (docs/engine.md); may be repeated");
   add_report(program);
   add_replay(program);
   add_solve(program);

@@ -92,7 +92,7 @@ int run_score(const ScoreArguments& options) {
   if (read_ones.count == 0) {
     throw InvalidInput("file", '"' + options.file + '"',
                        "must have a line that is an answer, as {\"id\": "
-                       "\"cylinder-box/rim-face/1/0\", \"status\": \"none\"}; docs/suite.md "
+                       "\"cylinder-box/rim-face/1/0\", \"status\": \"none\"}; docs/your-poses.md "
                        "says more");
   }
   const Interruption interruption;
@@ -136,7 +136,7 @@ void add_score(Program& program) {
       "An answer: {\"id\": \"cylinder-box/rim-face/1/0\", \"status\": \"contact\",\n"
       "\"signed_distance\": -0.1, \"normal\": [0, 0, 1],\n"
       "\"points\": [{\"position\": [0, 0, 0], \"depth\": 0.1}]}, or\n"
-      "{\"id\": …, \"status\": \"none\"}; docs/suite.md says more.\n"
+      "{\"id\": …, \"status\": \"none\"}; docs/your-poses.md says more.\n"
       "Exit code 2: a line was bad, or an answer is missing; the others are scored.");
   command.runs([options] { return run_score(*options); });
 }

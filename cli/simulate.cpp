@@ -245,7 +245,7 @@ void add_simulate(Program& program) {
       command
           .list("--engine", options->engines,
                 "Run in these engines' own worlds, with their contacts and with ours: bullet, "
-                "bullet-float, ode, mujoco (docs/inside-the-engines.md)")
+                "bullet-float, ode, mujoco (docs/motion.md)")
           .value("ENGINE");
   const Option step = command.numbers(
       "--step", options->steps, {1e-5, 0.1},

@@ -28,7 +28,8 @@ install(FILES LICENSE DESTINATION share/doc/touchstone RENAME copyright)
 install(FILES reference/LICENSE DESTINATION share/doc/touchstone RENAME copyright.reference)
 # The pages that the program names, with those that they link to.
 install(DIRECTORY docs DESTINATION share/doc/touchstone)
-foreach(page README.md CONTRIBUTING.md oracle/README.md oracle/audit/README.md reference/README.md reference/proofs.md suite/README.md)
+foreach(page README.md CONTRIBUTING.md candidates/host/protocol.md oracle/truth.md oracle/audit/README.md
+             reference/README.md reference/proofs.md suite/README.md)
   get_filename_component(page_folder ${page} DIRECTORY)
   install(FILES ${page} DESTINATION share/doc/touchstone/${page_folder})
 endforeach()

@@ -45,7 +45,7 @@ python3 "$prefix/share/touchstone/check_certificate.py" "$folder/proof.json" >/d
 # What it prints can be run there, and the pages that it names can be read, with those they link to.
 ! grep -qF ./touchstone "$folder/table" "$folder/out/report.html" || fail "there is no ./touchstone to run"
 pages=$prefix/share/doc/touchstone
-for page in $(grep -rahoE '\b(docs|oracle|suite|reference)/[a-zA-Z/-]+\.md' "$prefix"/{bin,lib,share/man,include} | sort -u); do
+for page in $(grep -rahoE '\b(docs|candidates|oracle|suite|reference)/[a-zA-Z/-]+\.md' "$prefix"/{bin,lib,share/man,include} | sort -u); do
   [ -s "$pages/$page" ] || fail "$page is named and not installed"
 done
 [ -s "$pages/docs/check.md" ] || fail "no pages are installed"

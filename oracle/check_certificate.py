@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Checks certificates of `touchstone replay --certify`: check_certificate.py FILE...
 
-A certificate proves lo <= signed distance <= hi of two bodies; docs/certificate.md has the format,
+A certificate proves lo <= signed distance <= hi of two bodies; oracle/truth.md has the format,
 the proof and the limits. All arithmetic is rational, and nothing is shared with the program that
 wrote the certificate. Prints what each file proves, or why it is rejected. Exit code: 0 all are
 accepted, 1 one is rejected, 2 one cannot be read.

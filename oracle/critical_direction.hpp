@@ -48,7 +48,7 @@ inline constexpr int heading_bits = 26;
 TurnedFrame turned_frame(const Frame& frame, double heading);
 
 /// Every site that could hold a direction whose gap is within `slack` (metres, >= 0) of the signed
-/// distance: all sites that double intervals cannot exclude. Complete (oracle/README.md); a site
+/// distance: all sites that double intervals cannot exclude. Complete (oracle/truth.md); a site
 /// without a maximum does no harm. Precondition: B is not a plane.
 std::vector<CriticalSite> critical_sites(const Difference& difference, double slack);
 
@@ -73,7 +73,7 @@ struct DirectionFamily {
 
 /// A direction at which the gap may have its maximum: determined exactly, enclosed at any
 /// precision. Since g(n) <= σ for every n, a direction that is no maximum does no harm; only
-/// completeness matters (oracle/README.md).
+/// completeness matters (oracle/truth.md).
 class CriticalDirection {
  public:
   virtual ~CriticalDirection() = default;

@@ -54,7 +54,7 @@ struct Truth {
   std::vector<NormalFamily> families;
 };
 
-/// Signed distance and optimal normals by exact critical directions (see oracle/README.md). The
+/// Signed distance and optimal normals by exact critical directions (see oracle/truth.md). The
 /// enclosure is no wider than `width` times the larger size, and its sign is decided. It depends on
 /// the geometry alone: an exact common rotation, a translation, an exchange of the bodies leave it
 /// as it is, a scaling by a power of two scales it. `normals` are those that tie: their gaps are

@@ -183,7 +183,7 @@ TEST(Normals, RefuseATieThatIsNone) {
 }
 
 // One test for each rule without which the set of critical directions is incomplete or its
-// enclosure does not converge, with a configuration that needs the rule (oracle/README.md).
+// enclosure does not converge, with a configuration that needs the rule (oracle/truth.md).
 
 /// The integer quaternion of a rotation matrix with entries integer / denominator, exactly.
 Quaternion exact_quaternion(const Eigen::Matrix3d& m, double denominator) {

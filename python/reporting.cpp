@@ -143,7 +143,7 @@ void bind_report(py::module_& m) {
 
 Printed, it is a table with a row for each pair and candidate.
 )");
-  type.def("to_dict", &dict_of, "The members of report.json (docs/report-schema.md), as a dict.");
+  type.def("to_dict", &dict_of, "The members of report.json (docs/report.schema.json), as a dict.");
   type.def(
       "save",
       [](const Report& report, const std::filesystem::path& folder) {
@@ -195,7 +195,7 @@ within `tolerance`, relative to the size. The function is called in `workers` pr
 this one (0: one a core), then in this one to be timed: what it changes elsewhere is lost or done
 again. A call that takes more than `seconds` by the clock is ended and counts as "timed-out"; that
 cannot end compiled code, and what crashes ends the report. For such engines there is
-`touchstone --candidate-command` (docs/clients.md).
+`touchstone --candidate-command` (docs/engine.md).
 
 >>> def nothing(a, pose_a, b, pose_b, threshold):
 ...     return None

@@ -95,7 +95,7 @@ void members(auto& a, Comparison& c) {
   a.named("changes", c.changes);
 }
 
-/// What is better, worse, faster or slower in `after` than in `before` (docs/compare.md). Reports
+/// What is better, worse, faster or slower in `after` than in `before` (docs/report.md). Reports
 /// on the same configurations are compared class by class; on others by pair and group, and only
 /// beyond chance. Times are compared as multiples of the baseline's; they have changed when even
 /// the nearest ends of their spreads are farther apart than the limit. Throws InvalidInput when
@@ -104,7 +104,7 @@ Comparison compare(const Report& before, const Report& after, const CompareLimit
 
 /// For a terminal of 80 columns.
 std::string comparison_text(const Comparison& comparison, const Terminal& terminal = {});
-/// One JSON object (docs/compare.md).
+/// One JSON object (docs/comparison.schema.json).
 std::string comparison_json(const Comparison& comparison);
 /// A page, usable offline: the changes, and both fronts of speed and accuracy one over the other.
 std::string comparison_page(const Comparison& comparison, const Report& before,

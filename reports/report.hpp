@@ -20,8 +20,8 @@ namespace touchstone {
 
 // The result of a run: filled once (make_report.hpp; a campaign's by campaigns/), then read by
 // every writer: report.json, the terminal table, the pages, the figures, the comparison.
-// docs/report-schema.md says what each member means; a member that report.json has too has the same
-// name here.
+// docs/report.schema.json says what each member means; a member that report.json has too has the
+// same name here.
 
 struct Machine {
   std::string cpu, compiler, os;

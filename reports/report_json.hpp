@@ -10,7 +10,7 @@
 
 namespace touchstone {
 
-// The format of report.json (docs/report-schema.md). What was not measured is null.
+// The format of report.json (docs/report.schema.json). What was not measured is null.
 
 /// Version of the format: member "schema".
 inline constexpr int report_schema = 3;

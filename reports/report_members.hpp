@@ -13,9 +13,9 @@
 namespace touchstone {
 
 // What the parts of report.json consist of: written, read and described by its schema from here
-// (json_members.hpp). docs/report-schema.md says what each member means. Of a report that is read,
-// trends, worst cases and what else only pages show are left out, as older files have them in other
-// forms.
+// (json_members.hpp). docs/report.schema.json says what each member means. Of a report that is
+// read, trends, worst cases and what else only pages show are left out, as older files have them in
+// other forms.
 
 inline const auto& values_of(Outcome) { return all_outcomes; }
 inline const char* name_of(Outcome outcome) { return outcome_name(outcome); }

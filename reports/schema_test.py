@@ -131,7 +131,7 @@ class Schema(unittest.TestCase):
         self.run_program("report", "--count", "1", "--pair", "cylinder-plane", "--candidates", "reference,capsule,bullet",
                          "--only", "scores,timing,stability,experiments,engines", "--out", "whole")
         report = json.loads((self.path / "whole/report.json").read_text())
-        text = self.run_example("report-schema.md", {"out/report.json": report})
+        text = self.run_example("report.md", {"out/report.json": report})
         self.assertRegex(text, r"standing agrees on \d+%, worst depth error \d")
         for member in ("stability", "experiments", "engines", "drake_protocol", "factors", "contrasts",
                        "trends", "recorded", "worst"):
@@ -181,7 +181,7 @@ class Schema(unittest.TestCase):
             answers = [json.loads(line) for line in answers.splitlines()]
             self.assertEqual(["error" in a for a in answers], [False] * 4 + [True] * 2)
             self.assertEqual(answers[2]["truth"]["ties"], "continuum")
-            self.assertIn("box reference agree", self.run_example("solve.md", {"answers.jsonl": [answers[0]]}))
+            self.assertIn("box reference agree", self.run_example("your-poses.md", {"answers.jsonl": [answers[0]]}))
             for answer in answers:
                 self.check_line(answer, bool(options))
 
@@ -199,7 +199,7 @@ class Schema(unittest.TestCase):
 
     def run_example(self, page, files):
         """Runs the Python of a page of docs in a folder with these files; what it prints."""
-        (block,) = re.findall(r"```python\n(.*?)```", (docs / page).read_text(), re.DOTALL)
+        (block,) = [b for b in re.findall(r"```python\n(.*?)```", (docs / page).read_text(), re.DOTALL) if "json" in b]
         with tempfile.TemporaryDirectory() as folder:
             for name, values in files.items():
                 file = pathlib.Path(folder) / name
@@ -218,6 +218,14 @@ class Schema(unittest.TestCase):
             comparison = json.loads(text)
             self.assertTrue(comparison["changes"])
             self.check("comparison", comparison)
+
+    def test_choices(self):
+        scenes = source / "cli/tests/scenes"
+        for options in (["can.json", "--candidates", "capsule", "--disturbances", "1"],
+                        ["can.json", "--engine", "bullet", "--disturbances", "1"],
+                        ["cart.urdf", "--candidates", "capsule", "--count", "5"]):
+            text = self.run_program("choose", scenes / options[0], *options[1:], "--json", "--out", "choice", codes=(0, 1))
+            self.check("choose", json.loads(text))
 
     def test_stability_and_experiments_alone(self):
         self.run_program("stability", "--count", "1", "--pair", "cylinder-plane", "--candidates", "reference,bullet", "--part",

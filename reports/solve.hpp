@@ -32,10 +32,10 @@ struct SolveOptions {
   bool csv = false;      ///< a row for each line and candidate instead of JSON
 };
 
-/// One JSON object a line in, one a line out (docs/solve.md), in the order of the lines; with one
-/// worker each as soon as its line has come. A bad line is answered with an error and the rest go
-/// on; returns false if there was any. Throws Contradiction if the two oracles disagree, or, from a
-/// worker, what says so.
+/// One JSON object a line in, one a line out (docs/your-poses.md), in the order of the lines; with
+/// one worker each as soon as its line has come. A bad line is answered with an error and the rest
+/// go on; returns false if there was any. Throws Contradiction if the two oracles disagree, or,
+/// from a worker, what says so.
 bool solve(std::istream& in, std::ostream& out, const SolveOptions& options);
 
 // What the second oracle says, held against the first one and written down:
@@ -49,7 +49,7 @@ void check_agreement(const Configuration& configuration, const oracle::Enclosure
 /// of points is farther apart than the gap along one direction, null unless the bodies are apart}.
 nlohmann::json to_json(const audit::Enclosure& audit);
 
-/// The certificate with the configuration that it is about, one JSON object (docs/certificate.md).
+/// The certificate with the configuration that it is about, one JSON object (oracle/truth.md).
 std::string certificate_json(const audit::Certificate& certificate,
                              const Configuration& configuration);
 

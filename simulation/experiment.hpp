@@ -68,7 +68,8 @@ struct Measurement {
   double value;    ///< the experiment's quantity
   double error;    ///< deviation from the value on paper, in the experiment's unit
   RunTally tally;  ///< of all its runs
-  std::vector<std::pair<std::string, double>> details = {};  ///< by name, as in docs/simulation.md
+  std::vector<std::pair<std::string, double>> details =
+      {};  ///< by name, as in docs/experiments.schema.json
 };
 
 /// A scene, or a few, whose outcome is known on paper.

@@ -66,7 +66,7 @@ inline double rest_energy(double step, double size) {
 
 // Resolution of an experiment: how far from the value on paper exact contacts may end, whichever
 // points they consist of. It follows from the overlap at the start, the world's settings, the step
-// and the bisection alone, never from what a candidate did. docs/simulation.md has the sums.
+// and the bisection alone, never from what a candidate did.
 
 /// Distance, metres, by which a contact yields under a body's weight: its speed is CFM times force.
 inline double sinking(double seconds) { return constraint_mixing * gravity * seconds; }

@@ -26,8 +26,8 @@ struct ExperimentOptions {
   Limits limits;
 };
 
-/// Outcome of one experiment with one candidate at one step (docs/simulation.md). If the outcome is
-/// `unsupported`, `crashed` or `timed_out`, the numbers after it have no meaning.
+/// Outcome of one experiment with one candidate at one step (docs/experiments.schema.json). If the
+/// outcome is `unsupported`, `crashed` or `timed_out`, the numbers after it have no meaning.
 struct ExperimentResult {
   enum class Outcome {  // in the order of their names in experiments_output.cpp
     measured,
@@ -131,8 +131,8 @@ ExperimentResult result_of(const Experiment& experiment, const std::string& cand
 
 ExperimentDescription describe(const Experiment& experiment, const std::vector<double>& steps);
 
-/// The member `experiments` of report.json (docs/simulation.md), and parts of it; null for what is
-/// not finite.
+/// The member `experiments` of report.json (docs/experiments.schema.json), and parts of it; null
+/// for what is not finite.
 nlohmann::json to_json(const ExperimentResults& results);
 nlohmann::json to_json(const ExperimentDescription& experiment);
 nlohmann::json to_json(const ExperimentResult& result);

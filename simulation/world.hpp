@@ -71,7 +71,8 @@ inline constexpr double constraint_mixing = 1e-10;
 /// aligned with the impending slip), and moves the bodies by them: semi-implicit Euler. Contacts
 /// are hard (`constraint_mixing`); a fifth of the depth beyond the scene's surface layer is
 /// corrected in a step (ERP 0.2). All candidates get the same settings, and the motion depends on
-/// the scene and the answers alone. docs/simulation.md gives the reasons.
+/// the scene and the answers alone. (dWorldStep would be more accurate for one body, but gives up
+/// where friction meets redundant points, as in a stack.)
 class World {
  public:
   /// Throws InvalidInput as check_scene does. The model must outlive the world.

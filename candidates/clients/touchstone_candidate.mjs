@@ -1,4 +1,4 @@
-// Makes an engine in JavaScript a candidate of Touchstone (docs/process-candidates.md).
+// Makes an engine in JavaScript a candidate of Touchstone (candidates/host/protocol.md).
 //
 //     import { run } from './touchstone_candidate.mjs';
 //

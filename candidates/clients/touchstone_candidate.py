@@ -1,4 +1,4 @@
-"""Makes an engine in Python a candidate of Touchstone (docs/process-candidates.md).
+"""Makes an engine in Python a candidate of Touchstone (candidates/host/protocol.md).
 
     from touchstone_candidate import Candidate, Contact, Point, run
 

@@ -34,7 +34,7 @@ constexpr const char* pairs_text =
     "\"cylinder-box\"";
 constexpr const char* shape_names[] = {"cylinder", "plane", "sphere", "capsule", "box"};
 
-/// Levels of a message, as of other JSON (docs/solve.md); printing deeper ones would take the
+/// Levels of a message, as of other JSON (docs/your-poses.md); printing deeper ones would take the
 /// stack.
 constexpr int max_depth = 64;
 

@@ -11,7 +11,7 @@
 namespace touchstone::messages {
 
 // The messages between Touchstone and a candidate that is a command, to the byte as
-// docs/process-candidates.md specifies them. Pure functions of their arguments.
+// candidates/host/protocol.md specifies them. Pure functions of their arguments.
 
 /// How all messages after the hello are written.
 enum class Format { frames, lines };

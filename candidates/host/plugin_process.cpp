@@ -96,8 +96,7 @@ PluginProcess::PluginProcess(const Candidate::Command& command, std::chrono::mil
     if (!last_line().empty()) why += "; standard error: " + readable(last_line());
     throw InvalidInput(
         "--candidate-command", in_quotes(command.line),
-        "must be a command that speaks as docs/process-candidates.md says, not as this one: " +
-            why);
+        "must be a command that speaks as docs/engine.md says, not as this one: " + why);
   }
   auto& origin = std::get<Candidate::Command>(candidates_.front().origin);
   origin.line = command.line;

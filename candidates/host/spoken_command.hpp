@@ -11,10 +11,10 @@
 
 namespace touchstone {
 
-/// A command (docs/process-candidates.md), which runs as a child of this process, with pipes to its
-/// standard input and output, and is asked as a plug-in is. Where it does not answer as it should,
-/// functions throw what ends the session: std::runtime_error that says why, for people. Nothing
-/// here is limited in time or memory, which the harness watches.
+/// A command (candidates/host/protocol.md), which runs as a child of this process, with pipes to
+/// its standard input and output, and is asked as a plug-in is. Where it does not answer as it
+/// should, functions throw what ends the session: std::runtime_error that says why, for people.
+/// Nothing here is limited in time or memory, which the harness watches.
 class SpokenCommand {
  public:
   /// What it may write to one file, its standard error included.

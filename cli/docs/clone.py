@@ -35,7 +35,10 @@ def has_no_place(option, arguments):
     of_robot = any(a.endswith(ROBOTS) for a in arguments)
     of_scene = of_robot or any(a.endswith(".json") for a in arguments)
     of_samples = any(a in arguments for a in ("--depth", "--angle", "--count"))
-    return {"--class": "--group" in arguments,  # which may have no such class
+    of_file = "--configurations" in arguments
+    return {"--class": of_file or "--group" in arguments,  # which may have no such class
+            "--pair": of_file,
+            "--count": of_file,
             "--candidates": any(a in arguments for a in ("--engine", "--povray", "--record")),
             "--law": "--search" in arguments,
             "--every": "--povray" not in arguments,
@@ -93,6 +96,7 @@ class Clone:
         """Exit code and what was printed. `of_job`: more of the environment."""
         command = re.sub(r"^mpirun -n \d+", "mpirun --oversubscribe -n 2", command)
         environment = dict(os.environ, PATH=f"{self.folder}:{os.environ['PATH']}",
+                           CPATH="build/release/include",  # as if it were installed
                            OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1",
                            **(of_job or {}))
         result = subprocess.run(["bash", "-o", "pipefail", "-c", command], cwd=self.folder,

@@ -32,7 +32,7 @@ EXIT_CODES = {
 # Words in a command, and how the file that it supposes is made.
 KNOWN_FAILURE = "ode-cylinder-sphere-agreement-wrong-normal"
 SUPPOSED = {
-    "my_engine": "cp candidates/example/cylinder_plane.c my_engine.c && "
+    "my_engine": "[ -e my_engine.c ] || cp candidates/example/cylinder_plane.c my_engine.c && "
                  "cc -shared -fPIC -I build/release/include my_engine.c -o my_engine.so -lm",
     # Of a routine that never finds a contact.
     "answers.jsonl": """python3 -Bc '
@@ -41,9 +41,8 @@ import json, judge
 for case in judge.read("suite/touchstone-suite-1.csv.gz"):
     print(json.dumps({"id": case["id"], "status": "none"}))' > answers.jsonl""",
     "poses.jsonl": "./touchstone replay cylinder-plane/lying/1/0 --candidates reference | "
-                   "grep '^{' | tail -n 1 > poses.jsonl",
-    "mine.jsonl": """sed -i 's/^{/{"id":"p1",/' poses.jsonl &&
-        echo '{"id":"p1","status":"none"}' > mine.jsonl""",
+                   """grep '^{' | tail -n 1 | sed 's/^{/{"id":"p1",/' > poses.jsonl""",
+    "mine.jsonl": """echo '{"id":"p1","status":"none"}' > mine.jsonl""",
     "robot.urdf": "cp simulation/scenes/gripper.urdf robot.urdf",
     "world.sdf": "cp simulation/scenes/warehouse.sdf world.sdf",
     "failures": f"mkdir failures && grep -m 1 {KNOWN_FAILURE} properties/known_failures.jsonl "
@@ -102,9 +101,13 @@ def faults_of_block(clone, commands, expected_lines):
 
 def main(source, program, page):
     text, faults = page.read_text(), []
+    my_engine = re.search(r"^```c\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)  # a page's plug-in
     with tempfile.TemporaryDirectory() as scratch:
         def new_clone():
-            return Clone(source, program, pathlib.Path(tempfile.mkdtemp(dir=scratch)))
+            clone = Clone(source, program, pathlib.Path(tempfile.mkdtemp(dir=scratch)))
+            if my_engine:
+                (clone.folder / "my_engine.c").write_text(my_engine[1])
+            return clone
 
         for job_file in job_files_of(text):
             faults += faults_of_job_file(new_clone(), job_file)

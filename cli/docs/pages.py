@@ -12,7 +12,7 @@ ELSEWHERE = {
     "parallel ": "reports/campaigns/campaign_test.sh, one shard after the other",
     "python3 oracle/check_certificate_test.py": "check_certificate",
     "python3 oracle/forge_certificates.py": "forge_certificates",
-    "apt-get install": "nothing: it needs the network",
+    "apt-get ": "nothing: it needs the network",
     "cd out/render": "simulation/scenes/povray_test.cpp, which writes what POV-Ray reads",
 }
 
@@ -28,6 +28,7 @@ def commands_of(block):
     return [c for c in (re.sub(r"(^|\s+)#.*", "", line).strip() for line in lines) if c]
 
 
+RUN = re.compile(r"^( *)run: \|\n((?:\1 +.*\n)+)", re.MULTILINE)  # a step of a workflow
 FENCE = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 JOBS = 3  # of a job file that says how many by itself
 
@@ -66,7 +67,7 @@ def blocks_of(page):
         if mark == "sh":
             blocks.append((commands_of(text), []))
         elif mark == "yaml":
-            blocks.append((commands_of(text.split("run: |\n")[1]), []))
+            blocks.append((commands_of("".join(script for _, script in RUN.findall(text))), []))
         elif mark == "":
             blocks[-1][1].extend(text.splitlines())
     within_sentences = re.findall(r"`(\./touchstone [^`]*)`", FENCE.sub("", page))

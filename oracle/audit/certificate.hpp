@@ -18,7 +18,7 @@ struct RationalPair {
 };
 
 /// A proof of lo <= signed distance <= hi that can be checked in rational arithmetic
-/// (docs/certificate.md; oracle/check_certificate.py does so).
+/// (oracle/truth.md; oracle/check_certificate.py does so).
 struct Certificate {
   mpq_class lo, hi;  ///< metres
   /// lo and hi are multiples of the grain, and this proof implies no narrower multiples.

@@ -1,4 +1,4 @@
-"""Runs the examples of docs/python.md, and those in the module's docstrings, which other test runners
+"""Runs the examples of docs/your-poses.md, and those in the module's docstrings, which other test runners
 do not find."""
 import doctest
 import pathlib
@@ -9,7 +9,7 @@ import numpy
 import touchstone
 
 
-PAGE = pathlib.Path(__file__).resolve().parents[2] / "docs" / "python.md"
+PAGE = pathlib.Path(__file__).resolve().parents[2] / "docs" / "your-poses.md"
 
 
 def docstrings():

@@ -10,7 +10,7 @@ along which A moves to come free; signed distances are positive apart and negati
 >>> r
 <touchstone.Report: 1 configuration, 2 candidates>
 
-`print(r)` shows a table, `r.save("out")` writes out/report.html. docs/python.md explains it.
+`print(r)` shows a table, `r.save("out")` writes out/report.html. docs/your-poses.md explains it.
 """
 
 try:

@@ -114,7 +114,7 @@ nlohmann::json run_json(const RepeatedRun& run);
 /// What choose.json says of a scene.
 nlohmann::json scene_json(const SceneFile& file, const Trials& trials, const Spreads& spreads);
 
-/// choose.json (docs/scenes.md).
+/// choose.json (docs/choose.schema.json).
 nlohmann::json choice_json(const Choice& choice, const std::string& command,
                            const std::string& folder);
 nlohmann::json pairs_json(const PairsChoice& choice, const std::string& command,

@@ -1,4 +1,4 @@
-// Draws a "stability" object (docs/stability.md) into an element: charts of small steps, maps of failure, motions.
+// Draws a "stability" object (docs/motion.md) into an element: charts of small steps, maps of failure, motions.
 function drawStability(into, study) {
   into.hidden = false;
   into.append(element('p', {}, 'What a tiny change of pose does to an answer, near poses that are exactly parallel, perpendicular ' +

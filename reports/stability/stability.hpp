@@ -16,7 +16,7 @@ namespace touchstone {
 
 struct Terminal;
 
-// How answers change at tiny steps and along slow motions (docs/stability.md): measured once
+// How answers change at tiny steps and along slow motions (docs/motion.md): measured once
 // (measure.hpp), then read by the table, the page and the JSON. Lengths are in sizes of the smaller
 // shape; a measure is absent where there was nothing to measure.
 

@@ -12,8 +12,8 @@
 
 namespace touchstone {
 
-// What the parts of stability.json consist of (json_members.hpp). docs/stability.md says what each
-// member means. Numbers are as tables show them, and are written only.
+// What the parts of stability.json consist of (json_members.hpp). docs/stability.schema.json says
+// what each member means. Numbers are as tables show them, and are written only.
 
 /// Two significant digits (short_number).
 struct ShortNumber {

@@ -12,7 +12,7 @@
 
 namespace touchstone {
 
-// Files of answers that were computed elsewhere (docs/suite.md).
+// Files of answers that were computed elsewhere (docs/your-poses.md).
 
 /// An answer that was computed elsewhere; smaller than an Answer, for there may be a million.
 struct GivenAnswer {

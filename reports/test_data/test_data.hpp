@@ -13,7 +13,7 @@
 
 namespace touchstone {
 
-// Configurations with their truths, for those who test elsewhere (docs/suite.md).
+// Configurations with their truths, for those who test elsewhere (docs/your-poses.md).
 
 /// The numbers that score() compares an answer with, metres.
 struct AnswerLimits {
@@ -56,7 +56,7 @@ std::vector<Identity> identities(const Campaign& campaign);
 /// sample().
 void make_test_data(const Campaign& campaign, const std::function<void(const TestDatum&)>& take);
 
-/// The form of a file of test data (docs/suite.md says what each holds).
+/// The form of a file of test data (docs/your-poses.md says what each holds).
 enum class TestDataFormat { json_lines, csv, npz };
 /// Reads "jsonl", "csv" or "npz". Throws InvalidInput with this field.
 TestDataFormat parse_test_data_format(std::string_view name, const char* field);

@@ -237,7 +237,8 @@ for i in range(len(d["id"])):
     for (std::size_t k = 0; k < 4; ++k) expected[sizes + k] = *parse_double(cells[12 + k]);
     add(std::array{d.truth.signed_distance.midpoint(), d.limits.max_regret});
     for (const auto& normal : d.truth.normals) {
-      add(Vec3((normal.n.array().abs() < 1e-30).select(0, normal.n)));  // as docs/suite.md says
+      add(Vec3(
+          (normal.n.array().abs() < 1e-30).select(0, normal.n)));  // as docs/your-poses.md says
     }
     ASSERT_EQ(words.size(), 3 + expected.size());
     for (std::size_t k = 0; k < expected.size(); ++k) {

@@ -169,7 +169,7 @@ bool is_one_run(const Experiment& experiment, double step);
 EngineMotion record_motion(const Experiment& experiment, const std::string& engine,
                            const EngineSetup& setup, double step);
 
-/// The member `engines` of report.json (docs/inside-the-engines.md).
+/// The member `engines` of report.json (docs/engines.schema.json).
 nlohmann::json to_json(const EngineResults& results);
 
 }  // namespace touchstone

@@ -1,4 +1,4 @@
-"""Touchstone's side of the protocol of docs/process-candidates.md, for tests of its clients."""
+"""Touchstone's side of the protocol of candidates/host/protocol.md, for tests of its clients."""
 
 from __future__ import annotations
 
