@@ -254,6 +254,54 @@ TEST(Models, NoDirectionHasALargerGapThanTheAnswer) {
   }
 }
 
+/// How far a point is outside a part; negative inside, if its core is no solid.
+double outside(const RoundedPolytope& part, const Vec3& p) {
+  if (part.is_solid()) return (p - part.closest_to(p)).norm();
+  const Vec3 &from = part.vertices().front(), way = part.vertices().back() - from;
+  const double along = way.norm() > 0 ? (p - from).dot(way) / way.squaredNorm() : 0;
+  return (p - from - std::clamp(along, 0.0, 1.0) * way).norm() - part.radius();
+}
+
+/// What stands for a shape that is no plane, at its pose.
+std::vector<RoundedPolytope> placed(const CylinderModel& model, const Shape& shape,
+                                    const Pose& pose) {
+  const ts_shape given = to_ts_shape(shape);
+  const double* const size = given.size;
+  std::vector<RoundedPolytope> parts;
+  if (given.kind == TS_CYLINDER) parts = model(size[0], size[1]);
+  if (given.kind == TS_SPHERE) parts = {RoundedPolytope::sphere(Vec3::Zero(), size[0])};
+  if (given.kind == TS_CAPSULE) parts = {RoundedPolytope::capsule(size[0], size[1])};
+  if (given.kind == TS_BOX) parts = {RoundedPolytope::box({size[0], size[1], size[2]})};
+  const ts_pose at_pose = to_ts_pose(pose);
+  for (RoundedPolytope& part : parts) part.place(rotation_of(at_pose), position_of(at_pose));
+  return parts;
+}
+
+TEST(Models, WitnessPointsAreOnTheirBodies) {
+  const auto from_nearest = [](const std::vector<RoundedPolytope>& parts, const Vec3& p) {
+    double least = INFINITY;
+    for (const RoundedPolytope& part : parts) least = std::min(least, outside(part, p));
+    return least;
+  };
+  const CylinderModel models[] = {inscribed_capsule, spheres(8), prism(7), prism(16)};
+  for (const Pair pair : {Pair::sphere, Pair::capsule, Pair::cylinder, Pair::box}) {
+    for (const std::string& pose_class : pose_classes(pair)) {
+      const Identity id(pair, pose_class, 6, 0);
+      SCOPED_TRACE(to_string(id));
+      const Configuration c = make_configuration(id);
+      // Coordinates and sizes are rounded.
+      const double allowed = rounding * std::max({larger_size(c), c.pose_a.position().norm(),
+                                                  c.pose_b.position().norm()});
+      for (const CylinderModel& model : models) {
+        const Separation s = between(model, to_ts_shape(c.a), to_ts_pose(c.pose_a),
+                                     to_ts_shape(c.b), to_ts_pose(c.pose_b));
+        EXPECT_LT(from_nearest(placed(model, c.a, c.pose_a), s.on_a), allowed);
+        EXPECT_LT(from_nearest(placed(model, c.b, c.pose_b), s.on_b), allowed);
+      }
+    }
+  }
+}
+
 TEST(Models, ABoxOfPartsReachesItsFacesAndLosesItsEdges) {
   const Box plank({0.2, 1, 3});
   const Cylinder rod(0.1, 0.5);

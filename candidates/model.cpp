@@ -191,38 +191,59 @@ double largest_gap(const RoundedPolytope& a, const RoundedPolytope& b, Separatio
   return best.distance;
 }
 
-/// The closest pair among edges and vertices of both, and among vertices and the other's solid
-/// core.
-void closest_apart(const RoundedPolytope& a, const RoundedPolytope& b, Separation& best) {
+/// The part of a core that is furthest along a normal: a corner, an edge or a face. By default all.
+struct Facing {
+  Vec3 normal = Vec3::Zero();
+  double least = 0;
+
+  bool has(const Vec3& corner) const { return corner.dot(normal) >= least; }
+};
+
+Facing facing(const RoundedPolytope& body, const Vec3& n) {
+  // Corners of a face are as far along its normal but for rounding, of coordinates of this size.
+  // One more does no harm: no pair is closer for it.
+  const Vec3& furthest = body.support(n);
+  return {n, furthest.dot(n) - 1e-12 * furthest.cwiseAbs().maxCoeff()};
+}
+
+/// The closest pair among edges of these parts of both, and among their corners and the other's
+/// solid core, with B moved by `shift`.
+void closest_apart(const RoundedPolytope& a, const Facing& of_a, const RoundedPolytope& b,
+                   const Facing& of_b, const Vec3& shift, Separation& best) {
   double min_squared = std::numeric_limits<double>::infinity();
   const auto consider = [&](const Vec3& on_a, const Vec3& on_b) {
     const double squared = (on_a - on_b).squaredNorm();
     if (squared >= min_squared) return;
     min_squared = squared;
     best.on_a = on_a;
-    best.on_b = on_b;
+    best.on_b = on_b - shift;
   };
-  const auto segments = [](const RoundedPolytope& body) {
+  const auto segments = [](const RoundedPolytope& body, const Facing& part) {
     std::vector<std::pair<Vec3, Vec3>> result;
     for (const auto& [i, j] : body.edges()) {
-      result.emplace_back(body.vertices()[i], body.vertices()[j] - body.vertices()[i]);
+      const Vec3 &from = body.vertices()[i], &to = body.vertices()[j];
+      if (part.has(from) && part.has(to)) result.emplace_back(from, to - from);
     }
-    if (result.empty()) result.emplace_back(body.vertices()[0], Vec3::Zero());
+    if (body.edges().empty()) result.emplace_back(body.vertices()[0], Vec3::Zero());
     return result;
   };
-  for (const auto& [p, d] : segments(a)) {
-    for (const auto& [q, e] : segments(b)) {
-      const auto [on_a, on_b] = closest_of_segments(p, d, q, e);
+  const auto segments_of_b = segments(b, of_b);
+  for (const auto& [p, d] : segments(a, of_a)) {
+    for (const auto& [q, e] : segments_of_b) {
+      const auto [on_a, on_b] = closest_of_segments(p, d, q + shift, e);
       consider(on_a, on_b);
     }
   }
   if (a.is_solid()) {
-    for (const Vec3& v : b.vertices()) consider(a.closest_to(v), v);
+    for (const Vec3& v : b.vertices()) {
+      if (of_b.has(v)) consider(a.closest_to(v + shift), v + shift);
+    }
   }
   if (b.is_solid()) {
-    for (const Vec3& v : a.vertices()) consider(v, b.closest_to(v));
+    for (const Vec3& v : a.vertices()) {
+      if (of_a.has(v)) consider(v, b.closest_to(v - shift) + shift);
+    }
   }
-  best.distance = std::sqrt(min_squared);
 }
 
 }  // namespace
@@ -233,8 +254,9 @@ Separation separation(const RoundedPolytope& a, const RoundedPolytope& b) {
   const double gap = largest_gap(a, b, s);
   if (!solid || (gap > 0 && !(a.is_solid() && b.is_solid()))) {
     const Vec3 across = s.normal;
-    closest_apart(a, b, s);
+    closest_apart(a, {}, b, {}, Vec3::Zero(), s);
     const Vec3 line = s.on_a - s.on_b;
+    s.distance = line.norm();
     if (s.distance > 0) {
       s.normal = line / s.distance;
     } else {
@@ -245,8 +267,8 @@ Separation separation(const RoundedPolytope& a, const RoundedPolytope& b) {
       s.normal = std::isfinite(gap) ? across : axis.unitOrthogonal();
     }
   } else {
-    s.on_a = a.support(-s.normal);
-    s.on_b = s.on_a - s.distance * s.normal;
+    // Moved by the gap along the normal, B touches A: where it does, the points are on both.
+    closest_apart(a, facing(a, -s.normal), b, facing(b, s.normal), s.distance * s.normal, s);
   }
   s.distance -= a.radius() + b.radius();
   s.on_a -= a.radius() * s.normal;
