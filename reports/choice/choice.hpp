@@ -20,6 +20,9 @@ namespace touchstone {
 /// What a run's verdict on a need measured, with its unit: "12.3°".
 std::string measured(const Verdict& verdict, const Need& need);
 
+/// "can-1 and table": the bodies that a verdict is about where its need does not say it.
+std::string bodies_of(const SceneFile& file, const Verdict& verdict);
+
 /// What a run's verdict on a need came to, by the need's index: "BROKEN can stands within 1°: 3.2°
 /// at 0.71 s", with what exact runs differ by if it compares with these.
 std::string need_line(const SceneFile& file, const Spreads& spreads, std::size_t need,
@@ -109,7 +112,7 @@ std::string narrow_row(const std::string& name, const std::vector<std::string>& 
 inline constexpr std::size_t columns_of_tables = 80;
 
 /// What choose.json says of any run: the verdicts on it, and in how many of its trials all held.
-nlohmann::json run_json(const RepeatedRun& run);
+nlohmann::json run_json(const SceneFile& file, const RepeatedRun& run);
 
 /// What choose.json says of a scene.
 nlohmann::json scene_json(const SceneFile& file, const Trials& trials, const Spreads& spreads);

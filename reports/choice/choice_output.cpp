@@ -27,7 +27,7 @@ json run_json(const Choice& choice, std::size_t index, const std::string& folder
   const double steps = choice.steps();
   json models = json::array();
   for (const Candidate* m : run.models) models.push_back(m->name);
-  json result = run_json(run);
+  json result = run_json(choice.file, run);
   result.update({{"name", run.name},
                  {"models", models},
                  {"models_alone", choice.has_models_alone(run)},
@@ -141,11 +141,14 @@ void write_configuration(const std::string& file, const Configuration& configura
 
 }  // namespace
 
-json run_json(const RepeatedRun& run) {
+json run_json(const SceneFile& file, const RepeatedRun& run) {
   json verdicts = json::array();
   for (const Verdict& v : run.verdicts) {
-    verdicts.push_back(
-        {{"value", or_null(v.value)}, {"limit", v.limit}, {"time", v.time}, {"holds", v.holds()}});
+    verdicts.push_back({{"value", or_null(v.value)},
+                        {"limit", v.limit},
+                        {"time", v.time},
+                        {"bodies", bodies_of(file, v)},
+                        {"holds", v.holds()}});
   }
   return {{"error", or_null(run.error())},
           {"holds", run.holds()},

@@ -363,6 +363,23 @@ TEST(EngineChoiceText, SaysWhatComesNearestWhereNothingHolds) {
   EXPECT_EQ(data["sizes"][0]["shape"], "box");
 }
 
+// Which of several bodies it was has to be said where a need names them all, or none.
+TEST(ChoiceText, AndJsonSayWhichBodiesAVerdictIsAbout) {
+  Choice choice = choice_of(R"({"need": "penetration", "metres": 0.1})");
+  EXPECT_THAT(choice_text(choice, "out", 200),
+              testing::ContainsRegex("1. holds  bodies overlap by less than 0.1 m: [0-9.e-]+ m, "
+                                     "can and ground\n"));
+  choice.runs[0].verdicts[0] = {0.25, 0.1, 0.5, {1, 0}};
+  choice.answer = 0;
+  choice.impossible = true;
+  EXPECT_THAT(
+      choice_text(choice, "out", 200),
+      HasSubstr("BROKEN bodies overlap by less than 0.1 m: 0.25 m at 0.50 s, can and ground "
+                "first\n"));
+  const json verdict = choice_json(choice, "", "out")["runs"][0]["verdicts"][0];
+  EXPECT_EQ(verdict["bodies"], "can and ground");
+}
+
 struct WarehousePairs : testing::Test {
   static PairsChoice choose() {
     PairNeeds needs;

@@ -17,13 +17,31 @@ std::string measured(const Verdict& verdict, const Need& need) {
   return fmt::format("{:.3g}{}", verdict.value, need.unit);
 }
 
+std::string bodies_of(const SceneFile& file, const Verdict& verdict) {
+  std::string names;
+  for (const int body : verdict.bodies) {
+    if (body >= 0) names += (names.empty() ? "" : " and ") + file.scene.bodies[body].name;
+  }
+  return names;
+}
+
+namespace {
+
+/// When a need was broken, and by which of its bodies; of one that holds, which came nearest.
+std::string when(const SceneFile& file, const Verdict& verdict) {
+  const std::string bodies = bodies_of(file, verdict), named = bodies.empty() ? "" : ", " + bodies;
+  if (verdict.holds()) return named;
+  return fmt::format(" at {:.2f} s{}{}", verdict.time, named, bodies.empty() ? "" : " first");
+}
+
+}  // namespace
+
 std::string need_line(const SceneFile& file, const Spreads& spreads, std::size_t need,
                       const Verdict& verdict) {
   const Need& n = *file.needs[need];
   std::string line =
-      fmt::format("{:>3}. {:<6} {}: {}", need + 1, verdict.holds() ? "holds" : "BROKEN",
-                  n.text(file.scene), measured(verdict, n));
-  if (!verdict.holds()) line += fmt::format(" at {:.2f} s", verdict.time);
+      fmt::format("{:>3}. {:<6} {}: {}{}", need + 1, verdict.holds() ? "holds" : "BROKEN",
+                  n.text(file.scene), measured(verdict, n), when(file, verdict));
   if (need < spreads.of_needs.size() && spreads.of_needs[need]) {
     const double spread = *spreads.of_needs[need];
     line += fmt::format(" (exact runs differ by {:.2g}{}{})", spread, n.unit,
@@ -321,8 +339,8 @@ std::string failure(const SceneFile& file, const RepeatedRun& run) {
   const int broken = run.first_broken();
   const Need& need = *file.needs[broken];
   const Verdict& verdict = run.verdicts[broken];
-  return fmt::format("{}: {} at {:.2f} s{}", need.text(file.scene), measured(verdict, need),
-                     verdict.time, in_disturbance(run));
+  return need.text(file.scene) + ": " + measured(verdict, need) + when(file, verdict) +
+         in_disturbance(run);
 }
 
 std::string first_failure(const RepeatedRun& run) {

@@ -119,7 +119,7 @@ std::string settings_table(const EngineChoice& choice, std::size_t columns) {
 json setting_json(const EngineChoice& choice, const EngineSetting& setting) {
   json shapes = json::array();
   for (const EngineShape& shape : setting.shapes) shapes.push_back(engine_shape_name(shape));
-  json result = run_json(setting);
+  json result = run_json(choice.file, setting);
   result.update(
       {{"name", setting_name(setting)},
        {"shapes", shapes},

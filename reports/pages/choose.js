@@ -10,6 +10,7 @@ const disturbances = count => count === 1 ? 'one disturbance' : `${count} distur
 function failure(run) {
   const need = needs[run.first_broken], verdict = run.verdicts[run.first_broken];
   return `${need.text}: ${measured(verdict.value, need)} at ${verdict.time.toFixed(2)} s` +
+      (verdict.bodies ? `, ${verdict.bodies} first` : '') +
       (run.disturbance ? `, disturbance ${run.disturbance}` : '');
 }
 
@@ -53,7 +54,7 @@ function needTable(verdicts) {
   return table(row(['', 'need', 'measured', 'at'], 'exact runs differ by').map(textColumn), [
     ...verdicts.map((v, i) => row([
       element('td', {class: v.holds ? 'good text' : 'bad text'}, v.holds ? 'holds' : 'broken'), wide(needs[i].text),
-      measured(v.value, needs[i]), `${v.time.toFixed(2)} s`], needs[i].spread === null ? '' : measured(needs[i].spread, needs[i]))),
+      measured(v.value, needs[i]), `${v.time.toFixed(2)} s${v.bodies ? `, ${v.bodies}` : ''}`], needs[i].spread === null ? '' : measured(needs[i].spread, needs[i]))),
     ...undecidable.map(u => row([element('td', {class: 'text'}, 'undecidable'), wide(u.text), '', ''], measured(u.spread, u)))],
   'What was measured of each need, and when');
 }

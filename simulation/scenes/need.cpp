@@ -16,21 +16,22 @@
 namespace touchstone {
 namespace {
 
-/// The largest of a series of values, and the time at which the limit was first exceeded. Values
-/// are added in the order of their times.
+/// The largest of a series of values, and when and on which bodies the limit was first exceeded.
+/// Values are added in the order of their times.
 class Largest {
  public:
   explicit Largest(double limit) : limit_(limit) {}
-  void add(double value, double time) {
+  void add(double value, double time, std::array<int, 2> bodies = {-1, -1}) {
     const bool worse = !(value <= value_);  // true for NaN
-    if (!broken_ && worse) time_ = time;
+    if (!broken_ && worse) time_ = time, bodies_ = bodies;
     if (worse) value_ = std::isnan(value) ? infinity : value;
     broken_ = broken_ || !(value <= limit_);
   }
-  Verdict verdict() const { return {value_, limit_, time_}; }
+  Verdict verdict() const { return {value_, limit_, time_, bodies_}; }
 
  private:
   double limit_, value_ = 0, time_ = 0;
+  std::array<int, 2> bodies_ = {-1, -1};
   bool broken_ = false;
 };
 
@@ -203,7 +204,8 @@ struct Rests : Need {
       for (const int body : bodies) {
         const BodyState& s = states[body];
         const double reach = largest_half_extent(runs.scene.bodies[body].shape);
-        largest.add(std::max(s.velocity.norm(), reach * s.angular_velocity.norm()), time);
+        const double fastest = std::max(s.velocity.norm(), reach * s.angular_velocity.norm());
+        largest.add(fastest, time, {bodies.size() > 1 ? body : -1, -1});
       }
     });
     return largest.verdict();
@@ -227,17 +229,21 @@ struct FallsInOrder : Need {
   }
   /// Counts bodies that do not fall, or fall before one that should have fallen earlier.
   Verdict measure(const ComparedRuns& runs) const override {
-    double out_of_place = 0, first = infinity, before = 0;
+    double out_of_place = 0, before = 0;
+    Verdict verdict{0, 0, runs.run.end()};
     for (const int body : bodies) {
       const double fell = fall_time(runs.run, body);
-      if (!(fell < infinity) || fell < before) {
-        ++out_of_place;
-        first = std::min(first, std::min(fell, runs.run.end()));
-      } else {
+      if (fell < infinity && fell >= before) {
         before = fell;
+        continue;
       }
+      ++out_of_place;
+      if (out_of_place > 1 && !(fell < verdict.time)) continue;
+      verdict.time = std::min(fell, runs.run.end());
+      verdict.bodies[0] = bodies.size() > 1 ? body : -1;
     }
-    return {out_of_place, 0, out_of_place > 0 ? first : runs.run.end()};
+    verdict.value = out_of_place;
+    return verdict;
   }
 
  private:
@@ -279,7 +285,8 @@ struct Penetration : Need {
     Largest largest(metres);
     for (const JudgedAnswer& a : runs.run.answers) {
       const double time = runs.run.step * a.frame;
-      if (time >= from - runs.run.step / 2 && concerns(bodies, a)) largest.add(a.depth, time);
+      if (time < from - runs.run.step / 2 || !concerns(bodies, a)) continue;
+      largest.add(a.depth, time, bodies.size() == 2 ? std::array{-1, -1} : std::array{a.a, a.b});
     }
     return largest.verdict();
   }

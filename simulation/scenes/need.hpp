@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -18,6 +19,9 @@ struct Verdict {
   /// When the limit was first exceeded; for a need that holds, of the largest value; for one that
   /// is broken only because the run is not sound, the end of the run.
   double time;
+  /// On which body or bodies of the scene that was, where the need does not say it; −1: none.
+  std::array<int, 2> bodies = {-1, -1};
+
   bool holds() const { return value <= limit; }
   /// Value as a share of the limit; for a limit of zero, above one as soon as the need is broken.
   double share() const { return limit > 0 ? value / limit : value > 0 ? 1 + value : 0; }

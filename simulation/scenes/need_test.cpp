@@ -118,6 +118,7 @@ TEST(Needs, RestsIsBrokenWhenTheFirstOfItsBodiesIsTooFast) {
   const Verdict verdict = judged(R"("need":"rests","bodies":["can","pot"],"speed":3.5)", falling);
   EXPECT_NEAR(verdict.time, 0.2, 1e-9);
   EXPECT_NEAR(verdict.value, 12, 1e-9);
+  EXPECT_EQ(verdict.bodies, (std::array{2, -1})) << "the pot, first";
 }
 
 TEST(Needs, FallsInOrderCountsThoseOutOfPlace) {
@@ -127,6 +128,7 @@ TEST(Needs, FallsInOrderCountsThoseOutOfPlace) {
   const Verdict reversed = judged(R"("need":"falls-in-order","bodies":["pot","can"])", falling);
   EXPECT_EQ(reversed.value, 1);
   EXPECT_NEAR(reversed.time, 0.3, 1e-9);
+  EXPECT_EQ(reversed.bodies, (std::array{1, -1})) << "the can, which had to wait for the pot";
   EXPECT_EQ(judged(R"("need":"falls-in-order","bodies":["can","pot"])", still).value, 2);
 }
 
@@ -137,6 +139,10 @@ TEST(Needs, PenetrationAndNormalsAreOfThePairThatTheyName) {
                  {6, 1, 0, 0.03, TS_CONTACT, -0.01, upright(7), 1}};
   EXPECT_EQ(judged(R"("need":"penetration","metres":0.005)", run).value, 0.03);
   EXPECT_NEAR(judged(R"("need":"penetration","metres":0.005)", run).time, 0.2, 1e-9);
+  EXPECT_EQ(judged(R"("need":"penetration","metres":0.005)", run).bodies, (std::array{1, 0}));
+  EXPECT_EQ(judged(R"("need":"penetration","bodies":["pot","can"],"metres":0.005)", run).bodies,
+            (std::array{-1, -1}))
+      << "the need says it";
   EXPECT_EQ(judged(R"("need":"penetration","bodies":["pot","can"],"metres":0.005)", run).value,
             0.02);
   EXPECT_EQ(
