@@ -297,8 +297,9 @@ TEST(Choose, SaysHowFarTheWorstOfARunsTrialsStrays) {
 
 // An ending that is compared with the exact run is compared with the same disturbance of it.
 TEST(Choose, ExactContactsAreAlwaysWhereTheyEndThemselves) {
-  json need = {{"need", "ends-near"}, {"body", "can"}, {"metres", 1e-9}};
-  const Choice choice = chosen(standing_can(need), 2);
+  SceneFile file = standing_can(stands);
+  file.needs = {ends_near_need(1, 1e-9)};  // nearer than a file may ask for
+  const Choice choice = chosen(file, 2);
   EXPECT_FALSE(choice.impossible);
   EXPECT_EQ(choice.runs[0].held, 1 + few.of_answer());
 }

@@ -17,9 +17,7 @@
 namespace touchstone {
 namespace {
 
-constexpr double max_shift = 1e-4;  // of the smallest width
-constexpr double max_angle = 1e-3;  // radians
-constexpr double max_kick = 1e-3;   // of the speed after a fall by the smallest width
+constexpr double max_kick = 1e-3;  // of the speed after a fall by the smallest width
 
 Vec3 draw_vector(Draw& draw, double max) { return draw.uniform(0, max) * draw.direction(); }
 

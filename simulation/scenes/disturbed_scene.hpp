@@ -16,11 +16,15 @@
 
 namespace touchstone {
 
-/// A scene as it might as well have been: every moving body up to 1e-4 of its smallest width from
-/// where it was written and up to 1e-3 rad askew, with a kick of up to 1e-3 of the speed that a
-/// fall of that width gives, what joints connect as one, and not at all where it is held by the
-/// world or driven; the whole world turned at random about the origin; the bodies in another order.
-/// What holds in the scene as it is written alone is luck.
+// Bounds of what nobody knows of a scene.
+inline constexpr double max_shift = 1e-4;  ///< of a body's smallest width
+inline constexpr double max_angle = 1e-3;  ///< radians
+
+/// A scene as it might as well have been: every moving body up to `max_shift` of its smallest width
+/// from where it was written and up to `max_angle` askew, with a kick of up to 1e-3 of the speed
+/// that a fall of that width gives, what joints connect as one, and not at all where it is held by
+/// the world or driven; the whole world turned at random about the origin; the bodies in another
+/// order. What holds in the scene as it is written alone is luck.
 struct DisturbedScene {
   Scene scene;
   Eigen::Quaterniond turn;  ///< of the world

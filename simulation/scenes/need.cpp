@@ -12,6 +12,7 @@
 #include "reference/invalid_input.hpp"
 #include "reference/support.hpp"
 #include "simulation/assembly.hpp"
+#include "simulation/scenes/disturbed_scene.hpp"
 
 namespace touchstone {
 namespace {
@@ -89,11 +90,19 @@ void require_angle(double degrees, double below) {
                      fmt::format("must be less than {:g}: no angle here is larger", below));
 }
 
-/// Only an exact run itself ends to the last bit where it does: it would be judged by itself.
-void require_positive(const char* member, double limit) {
-  if (limit > 0) return;
-  throw InvalidInput(member, "0",
-                     "must be positive: exact contacts alone end exactly where these do");
+/// Nothing but the exact run itself ends nearer to where it does than anybody knows where a body
+/// starts: it would be judged by itself.
+void require_knowable(const char* member, double limit, double known) {
+  if (limit >= known) return;
+  throw InvalidInput(member, fmt::format("{:g}", limit),
+                     fmt::format("must be at least {:.2g}: how a scene starts is known no better, "
+                                 "and only exact contacts end so near to where these do",
+                                 known));
+}
+
+/// How far from its place a body may start.
+double known_place(const Scene& scene, int body) {
+  return max_shift * 2 * smallest_half_extent(scene.bodies[body].shape);
 }
 
 /// Between bodies that never touch nothing could be wrong.
@@ -163,7 +172,7 @@ struct Rolls : Need {
   }
   void check(const Scene& scene) const override {
     require_vertical(scene, name);
-    if (is_relative()) require_positive("share", share);
+    if (is_relative()) require_knowable("share", share, max_shift);
   }
   bool is_relative() const override { return !distance; }
   std::string text(const Scene& scene) const override {
@@ -338,7 +347,9 @@ struct EndsNear : Need {
     members.body(bodies);
     members.number("metres", metres);
   }
-  void check(const Scene&) const override { require_positive("metres", metres); }
+  void check(const Scene& scene) const override {
+    require_knowable("metres", metres, known_place(scene, bodies[0]));
+  }
   bool is_relative() const override { return true; }
   std::shared_ptr<const Need> allowing(double limit) const override {
     const bool is_wider = is_derived && limit <= max_in_world;
@@ -366,7 +377,7 @@ struct EndsTilted : Need {
   }
   void check(const Scene&) const override {
     require_angle(degrees, 180);
-    require_positive("degrees", degrees);
+    require_knowable("degrees", degrees, max_angle * 180 / std::numbers::pi);
   }
   bool is_relative() const override { return true; }
   std::shared_ptr<const Need> allowing(double limit) const override {

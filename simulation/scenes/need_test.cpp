@@ -164,12 +164,16 @@ TEST(Needs, AnglesOfNormalsAreToTheNearestOfAFamily) {
   }
 }
 
-// An exact run compared with itself meets any limit, and nothing else meets none.
-TEST(Needs, RelativeOnesAllowSomething) {
-  for (const char* need : {R"("need":"ends-near","body":"can","metres":0)",
-                           R"("need":"ends-tilted","body":"can","degrees":0)",
-                           R"("need":"rolls","body":"can","share":0)"}) {
-    EXPECT_THROW(scene_with(need), InvalidInput) << need;
+// An exact run compared with itself meets any limit, and nothing else meets a tiny one.
+TEST(Needs, RelativeOnesAllowWhatNobodyKnowsOfTheStart) {
+  for (const char* limit :
+       {R"("ends-near","body":"can","metres")", R"("ends-tilted","body":"can","degrees")",
+        R"("rolls","body":"can","share")"}) {
+    for (const double value : {0.0, 1e-300, 1e-6}) {
+      const std::string need = fmt::format(R"("need":{}:{})", limit, value);
+      EXPECT_THROW(scene_with(need), InvalidInput) << need;
+    }
+    EXPECT_NO_THROW(scene_with(fmt::format(R"("need":{}:0.1)", limit)));
   }
   EXPECT_NO_THROW(scene_with(R"("need":"rolls","body":"can","distance":1,"share":0)"));
 }
