@@ -31,8 +31,10 @@ std::string need_line(const SceneFile& file, const Spreads& spreads, std::size_t
 std::string undecidable_text(const Spreads& spreads);
 
 /// What the answer does that nobody asked for: the largest overlap, and how far bodies end from
-/// where they do with exact contacts.
+/// where they do with exact contacts, or in an engine with our routines. Empty if that is the
+/// answer, or there is none.
 std::string unasked_text(const Choice& choice);
+std::string unasked_text(const EngineChoice& choice);
 /// Where exact contacts fail: the body that may move furthest in a step, as a share of its width,
 /// if that is so far that contacts come late, or further than a broken need lets bodies overlap.
 std::string long_step_text(const Choice& choice);

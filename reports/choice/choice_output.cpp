@@ -202,7 +202,7 @@ json choice_json(const Choice& choice, const std::string& command, const std::st
           {"exact_frame_microseconds", choice.frame_seconds(choice.runs[0]) * 1e6},
           {"point_microseconds",
            choice.point_seconds() ? json(*choice.point_seconds() * 1e6) : json(nullptr)},
-          {"unasked", choice.answer == 0 ? "" : unasked_text(choice)},
+          {"unasked", unasked_text(choice)},
           {"cheaper_routines", choice.impossible ? "" : cheaper_routines(choice)},
           {"long_step", long_step_text(choice)},
           {"kinds", kinds},

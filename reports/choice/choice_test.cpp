@@ -216,7 +216,7 @@ TEST(ChoiceText, OfTheUnaskedIsOfAllRunsOfTheAnswer) {
   choice.runs[1].straying = {0.25, 0.5, "can", 12, "can"};
   choice.exact_spread = {0, 0.75, "", 8, ""};
   const std::string unasked = unasked_text(choice);
-  EXPECT_THAT(unasked, HasSubstr("bodies overlap by up to 0.25 m (exact: "));
+  EXPECT_THAT(unasked, HasSubstr("bodies overlap by up to 0.25 m (with exact contacts: "));
   EXPECT_THAT(unasked,
               HasSubstr("can ends up to 0.5 m from where it does with exact contacts under "
                         "the same disturbance (exact runs differ by 0.75 m); can ends up "
@@ -361,6 +361,24 @@ TEST(EngineChoiceText, SaysWhatComesNearestWhereNothingHolds) {
   EXPECT_EQ(data["answer"], nullptr);
   EXPECT_EQ(data["settings"][data["nearest"].get<std::size_t>()]["name"], "box");
   EXPECT_EQ(data["sizes"][0]["shape"], "box");
+}
+
+// What holds the can within four degrees is the box, which ends a degree from where our routines
+// do.
+TEST(EngineChoiceText, OfTheUnaskedComparesWithOurRoutines) {
+  SceneFile file = can_with(R"({"need": "stands", "body": "can", "degrees": 4.5})");
+  file.scene.bodies[1].pose = Pose(Vec3(0, 0, 0.2));
+  const auto run = [](const std::string&, const std::vector<EngineShape>& shapes,
+                      const Scene& scene, bool) { return leaning(shapes, scene); };
+  const EngineChoice choice =
+      choose_in_engine(file, "ode", {.trials = {.disturbances = 0}, .run = run});
+  ASSERT_TRUE(choice.answer);
+  const std::string unasked = unasked_text(choice);
+  EXPECT_THAT(unasked, testing::StartsWith(
+                           "Asked for or not, in all its runs: bodies overlap by up to 0 m (with "
+                           "our routines: 0 m); can ends up to 1° from its tilt there"));
+  EXPECT_THAT(engine_choice_text(choice, 400), HasSubstr('\n' + unasked + '\n'));
+  EXPECT_EQ(engine_choice_json(choice, "")["unasked"], unasked);
 }
 
 // Which of several bodies it was has to be said where a need names them all, or none.

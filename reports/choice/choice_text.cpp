@@ -60,16 +60,19 @@ std::string undecidable_text(const Spreads& spreads) {
   return text;
 }
 
-std::string unasked_text(const Choice& choice) {
-  const Straying &s = choice.runs[choice.answer].straying, &apart = choice.exact_spread;
+namespace {
+
+/// `contacts`: what the run is compared with, whose own runs overlap by so much and differ so.
+std::string unasked(const Straying& s, const std::string& contacts, double overlap,
+                    const Straying& apart) {
   std::string text = fmt::format(
-      "Asked for or not, in all its runs: bodies overlap by up to {:.2g} m (exact: {:.2g} m)",
-      s.overlap, choice.runs[0].straying.overlap);
+      "Asked for or not, in all its runs: bodies overlap by up to {:.2g} m (with {}: {:.2g} m)",
+      s.overlap, contacts, overlap);
   if (s.distance > 0) {
     text += fmt::format(
-        "; {} ends up to {:.2g} m from where it does with exact contacts under the same "
-        "disturbance (exact runs differ by {:.2g} m)",
-        s.body, s.distance, apart.distance);
+        "; {} ends up to {:.2g} m from where it does with {} under the same disturbance (exact "
+        "runs differ by {:.2g} m)",
+        s.body, s.distance, contacts, apart.distance);
   }
   if (s.tilt > 0) {
     text +=
@@ -77,6 +80,22 @@ std::string unasked_text(const Choice& choice) {
                     s.tilted_body, s.tilt, apart.tilt);
   }
   return text + '.';
+}
+
+}  // namespace
+
+std::string unasked_text(const Choice& choice) {
+  if (choice.answer == 0) return "";
+  return unasked(choice.runs[choice.answer].straying, "exact contacts",
+                 choice.runs[0].straying.overlap, choice.exact_spread);
+}
+
+std::string unasked_text(const EngineChoice& choice) {
+  const bool is_exact =
+      choice.answer && &choice.settings[*choice.answer] == &choice.exact_setting();
+  if (!choice.answer || is_exact) return "";
+  return unasked(choice.settings[*choice.answer].straying, "our routines",
+                 choice.exact_setting().straying.overlap, choice.exact_spread);
 }
 
 namespace {
@@ -243,7 +262,7 @@ std::string times_of(const Choice& choice) {
       point ? fmt::format("; one costs it about {:.2g} µs", 1e6 * *point) : "",
       1e6 * choice.frame_seconds(answer),
       instead(" instead of {:.0f} µs", 1e6 * choice.frame_seconds(exact)));
-  return text + (differs ? unasked_text(choice) + '\n' : "");
+  return differs ? text + unasked_text(choice) + '\n' : text;
 }
 
 std::string headline(const Choice& choice) {

@@ -158,6 +158,7 @@ std::string engine_choice_text(const EngineChoice& choice, std::size_t columns) 
     text += need_line(file, choice.spreads, i, shown.verdicts[i]);
     if (!choice.answer) text += compared(choice, i);
   }
+  if (const auto unasked = unasked_text(choice); !unasked.empty()) text += unasked + '\n';
   text = Terminal{columns}.folded(text) + lines_to_paste(choice, shown);
   return text + settings_table(choice, columns);
 }
@@ -188,6 +189,7 @@ json engine_choice_json(const EngineChoice& choice, const std::string& command) 
           {"sizes", sizes},
           {"answer", choice.answer ? json(*choice.answer) : json(nullptr)},
           {"nearest", choice.nearest()},
+          {"unasked", unasked_text(choice)},
           {"settings", settings}};
 }
 

@@ -155,6 +155,7 @@ function drawEngineChoice() {
         (usual.holds ? '; the default cylinder meets all needs, too.' : `. The default cylinder breaks: ${usual.failure}.`);
   byId('provenance').textContent = `${engine.name} ${engine.version}: ${engine.settings}. ${data.machine.cpu}, ${data.machine.compiler}. ` +
       (data.scene.disturbances ? `Every run is repeated under ${disturbances(data.scene.disturbances)} (seed ${data.scene.seed}), the answer under five times as many.` : '') +
+      (data.unasked ? ` ${data.unasked}` : '') +
       (data.scene.not_judged.length ? ` Not judged, for ${engine.name} ended a run with our routines (${data.scene.exact_end}): ${data.scene.not_judged.join(', ')}.` : '') +
       (data.scene.left_out.length ? ` Left out, for an engine’s normals are not judged: ${data.scene.left_out.join(', ')}.` : '');
   origin();

@@ -57,16 +57,8 @@ class ModelSearch {
     judge_promising(one_kind_changed());
     combine();
     settle();
-    const Straying& s = choice_.runs[choice_.answer].straying;
-    const auto spread_of = [&](const std::string& body, auto make_need) {
-      const auto& bodies = choice_.file.scene.bodies;
-      const auto at = std::ranges::find(bodies, body, &Body::name);
-      if (at == bodies.end()) return 0.0;
-      const auto need = make_need(static_cast<int>(at - bodies.begin()), 0);
-      return spread(*need, choice_.file.scene, judge_.exact_runs());
-    };
-    choice_.exact_spread.distance = spread_of(s.body, ends_near_need);
-    choice_.exact_spread.tilt = spread_of(s.tilted_body, ends_tilted_need);
+    choice_.exact_spread =
+        spread(choice_.runs[choice_.answer].straying, choice_.file.scene, judge_.exact_runs());
   }
 
  private:

@@ -204,6 +204,21 @@ void Straying::add(const Straying& other) {
   if (other.tilt > tilt) tilt = other.tilt, tilted_body = other.tilted_body;
 }
 
+Straying straying(const Scene& scene, const Trajectory& run, const Trajectory& exact) {
+  Straying result;
+  for (const JudgedAnswer& answer : run.answers) {
+    result.overlap = std::max(result.overlap, answer.depth);
+  }
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const auto end = [&](const Trajectory& t) -> const Pose& { return t.frames.back()[i].pose; };
+    const bool has_tilt = !std::holds_alternative<Sphere>(scene.bodies[i].shape);
+    const std::string& name = scene.bodies[i].name;
+    result.add({0, (end(run).position() - end(exact).position()).norm(), name,
+                has_tilt ? degrees_between(end(run).axis(), end(exact).axis()) : 0, name});
+  }
+  return result;
+}
+
 template <>
 Evidence blank<Evidence>() {
   return {blank<Configuration>(), {}, {}, {}, 0};

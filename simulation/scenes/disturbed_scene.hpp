@@ -78,6 +78,8 @@ struct Straying {
   /// Keeps the larger of each, and its body.
   void add(const Straying& other);
 };
+/// Of a run of the scene as it is written or turned back to it, from the exact one.
+Straying straying(const Scene& scene, const Trajectory& run, const Trajectory& exact);
 template <class Archive>
 void members(Archive& a, Straying& s) {
   a(s.overlap, s.distance, s.body, s.tilt, s.tilted_body);

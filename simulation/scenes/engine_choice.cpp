@@ -69,11 +69,7 @@ std::tuple<bool, std::ptrdiff_t, std::ptrdiff_t, double> failing(const EngineSet
 class SettingSearch {
  public:
   SettingSearch(const EngineChoiceOptions& options, EngineChoice& choice)
-      : options_(options), choice_(choice), shapes_(own_shapes(choice.engine.name)) {
-    for (const auto& need : choice.file.needs) {
-      with_depths_ = with_depths_ || std::string(need->name) == "penetration";
-    }
-  }
+      : options_(options), choice_(choice), shapes_(own_shapes(choice.engine.name)) {}
 
   void run() {
     run_exactly();
@@ -85,7 +81,10 @@ class SettingSearch {
       choice_.answer = best();
       if (!choice_.answer) return;
       if (choice_.sizes.size() > 1 && judge_and_time(neighbours(*choice_.answer))) continue;
-      if (endures()) return;
+      if (!endures()) continue;
+      const Straying& strayed = choice_.settings[*choice_.answer].straying;
+      choice_.exact_spread = spread(strayed, choice_.file.scene, exact_runs_);
+      return;
     }
   }
 
@@ -151,13 +150,12 @@ class SettingSearch {
     }
   }
 
-  /// The ends of runs with our routines, if a need asks for them. Needs that do are left out where
-  /// the engine ends such a run.
+  /// The ends of runs with our routines. Needs that ask for them are left out where the engine ends
+  /// such a run.
   void run_exactly() {
     auto& needs = choice_.file.needs;
     const Scene& scene = choice_.file.scene;
     const auto asks = [](const auto& need) { return need->is_relative(); };
-    if (std::ranges::none_of(needs, asks)) return;
     const EngineSetting exact = uniform({Kind::exact});
     const auto make = [&](const DisturbedScene& disturbed) {
       const Contained ran = run_contained(
@@ -204,10 +202,11 @@ class SettingSearch {
     const DisturbedScene scene(choice_.file.scene, options_.trials.seed, disturbance);
     const Contained ran = run_contained(
         [&] {
-          const Trajectory run = scene.turned_back(run_of(setting, scene, with_depths_));
+          const Trajectory run = scene.turned_back(run_of(setting, scene, true));
           const Trajectory& exact = exact_runs_.empty() ? run : exact_runs_[disturbance];
           Trial trial;
           trial.points = run.points;
+          trial.straying = straying(choice_.file.scene, run, exact);
           for (const auto& need : choice_.file.needs) {
             trial.verdicts.push_back(need->judge({choice_.file.scene, run, exact}));
           }
@@ -340,9 +339,9 @@ class SettingSearch {
   const EngineChoiceOptions& options_;
   EngineChoice& choice_;
   const std::vector<EngineShape> shapes_;
-  bool with_depths_ = false;
   std::vector<std::size_t> timed_together_;  ///< the settings that were timed last
-  std::vector<Trajectory> exact_runs_;  ///< by disturbance, if a need asks for them: their ends
+  std::vector<Trajectory>
+      exact_runs_;  ///< their ends, by disturbance; none if the engine ended one
 };
 
 }  // namespace

@@ -57,7 +57,8 @@ struct EngineChoice {
   /// is nothing to compare with, and needs relative to exact contacts are not judged.
   std::string exact_end = {};
   std::vector<std::string> not_judged = {};  ///< texts of these
-  Spreads spreads = {};  ///< of runs with our routines, unless the engine ended one
+  Spreads spreads = {};        ///< of runs with our routines, unless the engine ended one
+  Straying exact_spread = {};  ///< of the same, as Choice has it
   std::vector<EngineSetting> settings = {};  ///< the engine's default first, then with our routines
   Trials trials = {};
   std::optional<std::size_t> answer = {};  ///< index of a setting; absent: none holds

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "reference/invalid_input.hpp"
-#include "simulation/scenes/disturbed_scene.hpp"
 
 namespace touchstone {
 
@@ -35,6 +34,17 @@ double spread(const Need& need, const Scene& scene, const std::vector<Trajectory
     }
   }
   return largest;
+}
+
+Straying spread(const Straying& strayed, const Scene& scene,
+                const std::vector<Trajectory>& exact_runs) {
+  const auto of_body = [&](const std::string& name, auto make_need) {
+    const auto at = std::ranges::find(scene.bodies, name, &Body::name);
+    if (at == scene.bodies.end()) return 0.0;
+    return spread(*make_need(static_cast<int>(at - scene.bodies.begin()), 0), scene, exact_runs);
+  };
+  return {0, of_body(strayed.body, ends_near_need), strayed.body,
+          of_body(strayed.tilted_body, ends_tilted_need), strayed.tilted_body};
 }
 
 Spreads take_undecidable(SceneFile& file, const std::vector<Trajectory>& exact_runs) {

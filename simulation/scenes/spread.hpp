@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "simulation/scenes/disturbed_scene.hpp"
 #include "simulation/scenes/scene_file.hpp"
 #include "simulation/scenes/trajectory.hpp"
 
@@ -31,6 +32,11 @@ struct Spreads {
 /// Largest value that a relative need has between two of these exact runs of a scene, of which each
 /// may be the first. Zero of a single run.
 double spread(const Need& need, const Scene& scene, const std::vector<Trajectory>& exact_runs);
+
+/// Distance and tilt by which these exact runs differ from each other at their ends, of the bodies
+/// that strayed the most.
+Straying spread(const Straying& strayed, const Scene& scene,
+                const std::vector<Trajectory>& exact_runs);
 
 /// Takes out of the file the relative needs whose limit lies within the spread of the exact runs,
 /// if that is more than the disturbances carry the body. Those that nobody asked for, a robot's,
