@@ -398,6 +398,15 @@ TEST(ChoiceText, AndJsonSayWhichBodiesAVerdictIsAbout) {
   EXPECT_EQ(verdict["bodies"], "can and ground");
 }
 
+TEST(ChoiceText, SaysWhereNoModelMeetsAllNeeds) {
+  Choice choice = choice_of(stands);
+  choice.answer = 0;
+  for (SceneRun& run : choice.runs) {
+    if (&run != &choice.runs[0]) run.verdicts[0].value = 90;
+  }
+  EXPECT_THAT(choice_text(choice, "out", 200), HasSubstr("\nExact: no model meets all needs:\n"));
+}
+
 struct WarehousePairs : testing::Test {
   static PairsChoice choose() {
     PairNeeds needs;

@@ -281,6 +281,10 @@ std::string headline(const Choice& choice) {
     return fmt::format("The {} models that meet all needs save {:.0f}% of a step:\n",
                        is_cheapest ? "cheapest" : "simplest of the cheapest", percent);
   }
+  const auto is_model = [&](const SceneRun& run) {
+    return &run != &choice.runs[0] && run.holds() && choice.has_models_alone(run);
+  };
+  if (std::ranges::none_of(choice.runs, is_model)) return "Exact: no model meets all needs:\n";
   if (!(percent > 0)) return "Exact: no model that meets all needs takes less of a step:\n";
   return fmt::format(
       "Exact: nothing cheaper that meets all needs saves more than {:.1f}% of a step:\n",
@@ -325,9 +329,8 @@ std::string candidates_tables(const Choice& choice, std::size_t columns) {
     lines += fmt::format("  {:<21} is spheres:1 here\n", c->name);
   }
   return lines +
-         "  (~: of one run; held: of the runs as written and disturbed; choose.json has the "
-         "command "
-         "that draws each)\n";
+         "  (~: of one run; of limit: the largest share that any need takes; held: of the runs as "
+         "written and disturbed; choose.json has the command that draws each)\n";
 }
 
 std::string errors(const ReplayScore& s) {

@@ -31,7 +31,8 @@ function headline() {
   byId('headline').textContent = !data.possible ? `Not even exact contacts meet the needs of this scene: ${failure(exact)}.`
       : data.worthwhile ? `The ${isCheapest ? 'cheapest' : 'simplest of the cheapest'} models that meet all needs save ${Math.round(percent)}% of a step: ${microseconds('step_microseconds', '.')}`
       : percent > 0 ? `Exact: nothing cheaper that meets all needs saves more than ${(Math.ceil(10 * percent) / 10).toFixed(1)}% of a step.`
-      : 'Exact: no model that meets all needs takes less of a step.';
+      : data.runs.slice(1).some(r => r.holds && r.models_alone) ? 'Exact: no model that meets all needs takes less of a step.'
+      : 'Exact: no model meets all needs.';
   for (const text of [data.cheaper_routines, data.long_step]) {
     if (text) byId('headline').textContent += ` ${text}`;
   }
