@@ -12,6 +12,7 @@
 #include "reports/terminal.hpp"
 
 namespace touchstone {
+
 std::string measured(const Verdict& verdict, const Need& need) {
   if (!std::isfinite(verdict.value)) return "the motion becomes absurd";
   return fmt::format("{:.3g}{}", verdict.value, need.unit);

@@ -157,9 +157,6 @@ class NeedReader final : public NeedMembers {
     if (!is_cylinder(bodies[0]) && !is_cylinder(bodies[1])) {
       throw InvalidInput(at("bodies"), shown(value_["bodies"]), "one of them must be a cylinder");
     }
-    if (bodies[0] == bodies[1]) {
-      throw InvalidInput(at("bodies"), shown(value_["bodies"]), "must be two bodies");
-    }
   }
   void any_pair(std::vector<int>& bodies) override {
     if (value_.contains("bodies")) pair(bodies);
@@ -167,8 +164,9 @@ class NeedReader final : public NeedMembers {
   void number(const char* name, double& value) override {
     const json& given = member(value_, name, path_);
     value = touchstone::number(given, at(name));
-    if (!(std::isfinite(value) && value >= 0)) {
-      throw InvalidInput(at(name), shown(given), "must be finite and not negative");
+    if (!(value >= 0 && value <= max_in_world)) {
+      throw InvalidInput(at(name), shown(given),
+                         fmt::format("must be a number from 0 to {:g}", max_in_world));
     }
   }
   void number_or_default(const char* name, double& value) override {
@@ -213,7 +211,11 @@ class NeedReader final : public NeedMembers {
     }
     std::vector<int> result;
     for (std::size_t i = 0; i < names.size(); ++i) {
-      result.push_back(body_index(names[i], fmt::format("{}[{}]", at("bodies"), i), scene_));
+      const int body = body_index(names[i], fmt::format("{}[{}]", at("bodies"), i), scene_);
+      if (std::ranges::find(result, body) != result.end()) {
+        throw InvalidInput(at("bodies"), shown(names), "must be bodies that differ");
+      }
+      result.push_back(body);
     }
     return result;
   }
