@@ -77,6 +77,12 @@ std::optional<InvalidInput> inconsistency(const Report& report) {
     return InvalidInput{fmt::format("classes[{}].class", &c - report.classes.data()),
                         '"' + c.pose_class + '"', "must stand there once for " + c.pair};
   }
+  for (const ResultRow& row : report.results) {
+    // Older reports do not list them, or by older names.
+    if (report.is_old || classes.empty() || classes.contains({row.pair, row.pose_class})) continue;
+    return InvalidInput{fmt::format("results[{}].class", &row - report.results.data()),
+                        '"' + row.pose_class + '"', "must be one of the classes of " + row.pair};
+  }
   CountByClass of_classes, of_groups;
   if (auto found = between_rows(report, report.results, "results", of_classes)) return found;
   if (auto found = between_rows(report, report.summary, "summary", of_groups)) return found;

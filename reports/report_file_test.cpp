@@ -168,6 +168,8 @@ TEST_F(ReportFile, RefusesWhatCannotBeCompared) {
   refused("/results/0/outcomes/lost", 0, "results[0].outcomes.lost");
   refused("/results/0/outcomes/missed", std::uint64_t{1} << 63, "results[0].outcomes");
   refused("/results/0/count", 0, "results[0].count");
+  refused("/results/0/class", "cone", "results[0].class is \"cone\"");
+  refused("/results/0/pair", "cone-cone", "results[0].class is ");
   refused("/tolerance", -1, "tolerance is -1");
   refused("/threshold", -1, "threshold is -1");
   refused("/results/0/coverage/mean", 1.5, "results[0].coverage.mean");
