@@ -25,6 +25,22 @@ constexpr std::size_t max_shown_id = 100;
 
 std::string shown_id(const std::string& id) { return '"' + printable(id, max_shown_id) + '"'; }
 
+<<<<<<< HEAD
+=======
+/// The id of a line: a string, or a number as it is written; 0 and "0" are one id.
+std::string id_of(const json& line) {
+  const json& id = member(line, "id", "");
+  if (id.is_number()) return id.dump();
+  if (id.is_string()) return string(id, "id");
+  throw InvalidInput("id", shown(id), "must be a string or a number");
+}
+
+/// What is wrong in a line, with its number.
+InvalidInput in_line(std::uint64_t number, const InvalidInput& e) {
+  return {fmt::format("line {}: {}", number, e.field()), e.value(), e.remedy()};
+}
+
+>>>>>>> 196ca3d (score names lines in one way, says what ids of one's own need, and bounds a name)
 }  // namespace
 
 ConfigurationFile::ConfigurationFile(std::istream& in) {
@@ -40,7 +56,7 @@ ConfigurationFile::ConfigurationFile(std::istream& in) {
         throw InvalidInput("id", shown_id(id), "must differ from those of the lines before");
       }
     } catch (const InvalidInput& e) {
-      throw e.within(fmt::format("line {}", lines.number()));
+      throw in_line(lines.number(), e);
     }
   }
 }
@@ -54,9 +70,11 @@ namespace {
 
 void require_name(const std::string& name, const char* field) {
   const auto plain = [](unsigned char c) { return std::isgraph(c) && c != ':' && c != ','; };
-  if (name.empty() || !std::all_of(name.begin(), name.end(), plain)) {
+  if (name.empty() || name.size() > max_shown_id || !std::ranges::all_of(name, plain)) {
     throw InvalidInput(field, shown_id(name),
-                       "must be printable ASCII without colon, comma and space");
+                       fmt::format("must be at most {} characters of printable ASCII without "
+                                   "colon, comma and space",
+                                   max_shown_id));
   }
 }
 
@@ -156,8 +174,6 @@ class AnswerReader {
   }
 
   Identity identity_of(const std::string& id) const {
-    const char* const remedy =
-        file_ ? "must be an id of the configurations' file, or an identity" : nullptr;
     try {
       Identity identity = parse_identity(id);
       if (!is_closed_ || lines_.contains(to_string(identity)) ||
@@ -165,7 +181,11 @@ class AnswerReader {
         return identity;
       }
     } catch (const InvalidInput& e) {
-      throw InvalidInput("id", shown_id(id), remedy ? remedy : e.what());
+      throw InvalidInput("id", shown_id(id),
+                         file_ ? "must be an id of the configurations' file, or an identity"
+                               : fmt::format("{}; or name what ids of your own mean by "
+                                             "--configurations",
+                                             e.field() == "identity" ? e.remedy() : e.what()));
     }
     throw InvalidInput("id", shown_id(id), "must be of the configurations that were asked for");
   }
@@ -192,7 +212,7 @@ Candidate described(const GivenDescription& description, const json& header) {
   }
   Candidate result;
   result.name = text(description.name, "candidate");
-  require_name(result.name, description.name ? "--name" : "line 1.candidate");
+  require_name(result.name, description.name ? "--name" : "candidate");
   result.family = result.name;
   result.version = text(description.version, "version");
   result.settings = text(description.settings, "settings");
@@ -222,14 +242,14 @@ ReadAnswers read_answers(std::istream& in, const GivenDescription& description,
       }
     } catch (const InvalidInput& e) {
       // It may be the line that says whose answers these are.
-      if (is_first && !description.name) throw e.within(fmt::format("line {}", lines.number()));
+      if (is_first && !description.name) throw in_line(lines.number(), e);
       result.errors.push_back(error_of(lines.number(), e));
     }
   }
   try {
     result.answers.candidate = described(description, header);
   } catch (const InvalidInput& e) {
-    throw e.field().starts_with("-") || e.field().starts_with("line") ? e : e.within("line 1");
+    throw e.field().starts_with("-") ? e : in_line(1, e);
   }
   if (const auto& missing = reader.missing(); !missing.empty()) {
     const std::string value = fmt::format(
