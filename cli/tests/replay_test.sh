@@ -89,6 +89,10 @@ expect 0 'TEST_CASE("TestCollideCylinderVsBox")' replay $rim --emit jolt-margin:
 also 'on the numbers below, before they are rounded to float'
 apart='{"a":{"shape":"cylinder","radius":1,"half_length":1},"b":{"shape":"sphere","radius":1},"pose_b":{"position":[0,0,2.25]}}'
 expect 0 'They are 0.25 apart, which is within what was asked for' replay <(echo "$apart") --threshold 0.5 --emit jolt --language c++
+huge='{"a": {"shape": "cylinder", "radius": 1e300, "half_length": 1}, "b": {"shape": "sphere", "radius": 1}}'
+expect 2 '--emit.*"jolt": .*no float holds 1e+300' replay <(echo "$huge") --emit jolt --language c++
+expect 2 '--emit.*"jolt": .*no float holds 1e-300' replay <(echo "${huge/1e300/1e-300}") --emit jolt --language c++
+expect 2 '--emit.*jolt-margin:-1.*from 0 to 1' replay $rim --emit jolt-margin:-1
 expect 2 '--emit.*no-such-engine.*must be one of bullet, .*ode, fcl, .*libccd, .*mujoco' replay $rim --emit no-such-engine
 expect 2 '--emit.*libccd.*half-space' replay cylinder-plane/general-deep/1/2 --emit libccd
 expect 2 '--emit.*havok.*half-space' replay cylinder-plane/general-deep/1/2 --emit havok

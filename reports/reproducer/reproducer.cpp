@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -11,6 +12,7 @@
 #include "candidates/readable.hpp"
 #include "oracle/truth.hpp"
 #include "properties/files/given_text.hpp"
+#include "properties/numbers.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/replay.hpp"
 #include "reports/reproducer/texts.hpp"
@@ -219,9 +221,10 @@ Texts npm_texts(const Program& program, std::string_view name, const Candidate* 
     rule = [](double) { return 0.0; };
   } else if (program.engine == "jolt-margin") {
     const auto given = parse_double(name.substr(name.find(':') + 1));
-    if (!candidate && !given) {
+    // As candidates/npm/jolt.mjs has it.
+    if (!candidate && !(given && *given >= 0 && *given <= 1)) {
       throw InvalidInput("--emit", string_literal(name),
-                         "must be jolt-margin: and the radius, metres");
+                         "must be jolt-margin: and the radius, from 0 to 1 metre");
     }
     const double radius = candidate ? candidate->value : *given;
     texts["convex_rule"] = fmt::format("{} m, at most the smallest half extent", radius);
@@ -312,6 +315,25 @@ std::string fill_template(std::string_view source, const Tags& tags, const Texts
   return result.substr(0, result.find_last_not_of('\n') + 1);
 }
 
+/// A test case of Jolt has floats, which must hold the numbers of both bodies.
+void require_floats(std::string_view name, const Configuration& c) {
+  Numbers numbers = numbers_of(c);
+  const auto is_beyond = [](double x) { return !std::isfinite(static_cast<float>(x)); };
+  const auto is_lost = [](double x) { return static_cast<float>(x) == 0; };
+  const auto refuse_number = [&](double x) {
+    throw InvalidInput("--emit", string_literal(name),
+                       fmt::format("must be asked in a language of doubles, as javascript: no "
+                                   "float holds {:g}",
+                                   x));
+  };
+  for (const double size : numbers.sizes) {
+    if (is_lost(size)) refuse_number(size);
+  }
+  for (const double* number : every_number(numbers)) {
+    if (is_beyond(*number)) refuse_number(*number);
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> reproducer_engines() {
@@ -329,6 +351,7 @@ std::string reproducer(std::string_view name, std::string_view language, const C
   const Candidate* const candidate =
       askable_candidate(of_engine == programs.end() ? name : of_engine->candidate);
   const Program& program = find_program(name, language, c, candidate);
+  if (program.tags == "doctest") require_floats(name, c);
   const std::string title(program.title.empty() ? "The candidate" : program.title);
 
   // Its numbers are those that the engine gets, which are rounded, and so is the truth of them.
