@@ -280,14 +280,6 @@ std::string CampaignOption::command_line() const {
   return sample.command_line() + candidates.command_line() + bar.command_line();
 }
 
-std::ifstream opened(const std::string& file, const char* field) {
-  std::ifstream in(file);
-  if (!in || is_folder(file)) {
-    throw InvalidInput(field, '"' + file + '"', "could not be opened for reading");
-  }
-  return in;
-}
-
 void refuse_to_replace(const std::string& input, const std::string& output, const char* option) {
   std::error_code error;  // one that does not exist is another one
   if (output.empty() || !std::filesystem::equivalent(input, output, error)) return;

@@ -143,9 +143,6 @@ struct CampaignOption {
   BarOption bar;
 };
 
-/// A file of input. Throws InvalidInput (`field`) if it cannot be read.
-std::ifstream opened(const std::string& file, const char* field);
-
 /// Throws InvalidInput (field `option`) if the file to be written is the one that is read.
 void refuse_to_replace(const std::string& input, const std::string& output, const char* option);
 

@@ -152,16 +152,19 @@ void check_file_writable(const std::filesystem::path& file, const char* field) {
   if (!is_special) check_writable(file.has_parent_path() ? file.parent_path() : ".", field);
 }
 
-std::string read_file(const std::filesystem::path& file, const char* field, std::size_t max_size) {
+std::ifstream opened(const std::filesystem::path& file, const char* field) {
   const std::string name = '"' + file.string() + '"';
   if (is_folder(file)) throw InvalidInput(field, name, "must be a file, not a folder");
   errno = 0;
   std::ifstream in(file, std::ios::binary);
-  if (!in) {
-    throw InvalidInput(field, name,
-                       fmt::format("could not be opened for reading ({})", std::strerror(errno)));
-  }
-  return read_stream(in, name, field, max_size);
+  if (in) return in;
+  throw InvalidInput(field, name,
+                     fmt::format("could not be opened for reading ({})", std::strerror(errno)));
+}
+
+std::string read_file(const std::filesystem::path& file, const char* field, std::size_t max_size) {
+  std::ifstream in = opened(file, field);
+  return read_stream(in, '"' + file.string() + '"', field, max_size);
 }
 
 bool ended_by_error(const std::istream& in) {

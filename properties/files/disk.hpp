@@ -1,7 +1,7 @@
 #pragma once
 
 #include <filesystem>
-#include <iosfwd>
+#include <fstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -54,6 +54,8 @@ void check_file_writable(const std::filesystem::path& file, const char* field);
 /// memory.
 inline constexpr std::size_t max_file_size = std::size_t{1} << 27;
 
+/// A file of input. Throws InvalidInput with this field and the file's name if it cannot be read.
+std::ifstream opened(const std::filesystem::path& file, const char* field);
 /// The whole file. Throws InvalidInput with this field and the file's name unless it can be read
 /// and has at most `max_size` bytes.
 std::string read_file(const std::filesystem::path& file, const char* field,
