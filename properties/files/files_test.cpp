@@ -578,17 +578,20 @@ TEST(NamedMembers, AreJsonAndReadBack) {
 TEST(NamedMembers, ThatAreNotAsTheTypeSaysAreRefusedWithTheirPlace) {
   const struct {
     const char *place, *value, *error;
-  } table[] = {{"/endless", "true", "endless is true: must be a number"},
-               {"/low", "0", "low is 0: must be a positive number"},
-               {"/low", "null", "low is null: must be a positive number"},
-               {"/high", "0.5", "high is 0.5: must not be less than its low, 1.0"},
-               {"/count", "-1", "count is -1: must be a whole number"},
-               {"/newer", "1.5", "newer is 1.5: must be a whole number"},
-               {"/marked", "1", "marked is 1: must be true or false"},
-               {"/entries", "{}", "entries is {}: must be an array"},
-               {"/entries/0", "[]", "entries[0] is []: must be an object"},
-               {"/entries/0/name", "7", "entries[0].name is 7: must be a string"},
-               {"/entries/0/share", "2", "entries[0].share is 2: must be a number from 0 to 1"}};
+  } table[] = {
+      {"/endless", "true", "endless is true: must be a number"},
+      {"/low", "0", "low is 0: must be a positive number"},
+      {"/low", "null", "low is null: must be a positive number"},
+      {"/high", "0.5", "high is 0.5: must not be less than its low, 1.0"},
+      {"/count", "-1", "count is -1: must be a whole number from 0 to 18446744073709551615"},
+      {"/newer", "1.5", "newer is 1.5: must be a whole number from -2147483648 to 2147483647"},
+      {"/newer", "4294967296",
+       "newer is 4294967296: must be a whole number from -2147483648 to 2147483647"},
+      {"/marked", "1", "marked is 1: must be true or false"},
+      {"/entries", "{}", "entries is {}: must be an array"},
+      {"/entries/0", "[]", "entries[0] is []: must be an object"},
+      {"/entries/0/name", "7", "entries[0].name is 7: must be a string"},
+      {"/entries/0/share", "2", "entries[0].share is 2: must be a number from 0 to 1"}};
   for (const auto& [place, value, error] : table) {
     json listing = json_of(Listing());
     listing[json::json_pointer(place)] = json::parse(value);

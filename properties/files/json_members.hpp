@@ -180,8 +180,13 @@ void JsonIn::read(T& x, const Rule& rule) const {
   } else if constexpr (std::is_floating_point_v<T>) {
     x = number(rule);
   } else if constexpr (std::is_integral_v<T>) {
-    if (!value_.is_number_integer() || (std::is_unsigned_v<T> && !value_.is_number_unsigned())) {
-      refuse("must be a whole number");
+    const bool fits =
+        value_.is_number_unsigned()
+            ? std::in_range<T>(value_.get<std::uint64_t>())
+            : value_.is_number_integer() && std::in_range<T>(value_.get<std::int64_t>());
+    if (!fits) {
+      refuse(fmt::format("must be a whole number from {} to {}", std::numeric_limits<T>::min(),
+                         std::numeric_limits<T>::max()));
     }
     number(rule);
     x = value_.get<T>();
