@@ -8,12 +8,7 @@
 
 #include "cli/command.hpp"
 #include "cli/options.hpp"
-<<<<<<< HEAD
-=======
-#include "oracle/audit/certificate.hpp"
-#include "properties/files/configuration_json.hpp"
 #include "properties/files/disk.hpp"
->>>>>>> fcd08a1 (Every file of input is opened by one function, which says why it cannot be)
 
 namespace touchstone {
 namespace {

@@ -26,13 +26,8 @@ echo '{"id":0,"status":"none"}' >"$folder/own.jsonl"
 own=(score "$folder/own.jsonl" --configurations "$folder/poses.jsonl" --name mine --out "$folder/given")
 expect 0 '^cylinder-sphere, given poses' "${own[@]}"
 expect 0 '"id":0' solve "$folder/poses.jsonl" --candidates reference
-<<<<<<< HEAD
 sed -i 's/0,/[0],/' "$folder/poses.jsonl"
-expect 2 "^error: $folder/poses.jsonl: line 1.id is \[0\]: must be a string, a number, true, false or null" "${own[@]}"
-=======
-sed -i 's/0,/null,/' "$folder/poses.jsonl"
-expect 2 "^error: $folder/poses.jsonl: line 1: id is null: must be a string or a number" "${own[@]}"
->>>>>>> 196ca3d (score names lines in one way, says what ids of one's own need, and bounds a name)
+expect 2 "^error: $folder/poses.jsonl: line 1: id is \[0\]: must be a string, a number, true, false or null" "${own[@]}"
 echo '{"candidate":"a b"}' | cat - "$folder/given.jsonl" >"$folder/named.jsonl"
 expect 2 "^error: $folder/named.jsonl: line 1: candidate is \"a b\": must be at most 100" score "$folder/named.jsonl" \
   --out "$folder/given"

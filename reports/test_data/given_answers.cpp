@@ -25,22 +25,11 @@ constexpr std::size_t max_shown_id = 100;
 
 std::string shown_id(const std::string& id) { return '"' + printable(id, max_shown_id) + '"'; }
 
-<<<<<<< HEAD
-=======
-/// The id of a line: a string, or a number as it is written; 0 and "0" are one id.
-std::string id_of(const json& line) {
-  const json& id = member(line, "id", "");
-  if (id.is_number()) return id.dump();
-  if (id.is_string()) return string(id, "id");
-  throw InvalidInput("id", shown(id), "must be a string or a number");
-}
-
 /// What is wrong in a line, with its number.
 InvalidInput in_line(std::uint64_t number, const InvalidInput& e) {
   return {fmt::format("line {}: {}", number, e.field()), e.value(), e.remedy()};
 }
 
->>>>>>> 196ca3d (score names lines in one way, says what ids of one's own need, and bounds a name)
 }  // namespace
 
 ConfigurationFile::ConfigurationFile(std::istream& in) {

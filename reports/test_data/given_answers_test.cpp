@@ -238,11 +238,7 @@ TEST(GivenConfigurations, MayHaveAnyScalarAsId) {
   std::istringstream in(named(can_on_box, "[0]"));
   EXPECT_THAT(
       [&] { ConfigurationFile file(in); },
-<<<<<<< HEAD
-      ThrowsMessage<InvalidInput>(HasSubstr("line 1.id is [0]: must be a string, a number, true")));
-=======
-      ThrowsMessage<InvalidInput>(HasSubstr("line 1: id is [0]: must be a string or a number")));
->>>>>>> 196ca3d (score names lines in one way, says what ids of one's own need, and bounds a name)
+      ThrowsMessage<InvalidInput>(HasSubstr("line 1: id is [0]: must be a string, a number, true")));
 }
 
 TEST(ReportOfGivenAnswers, TellsItsConfigurationsFromOthers) {
