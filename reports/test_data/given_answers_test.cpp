@@ -236,9 +236,9 @@ TEST(GivenConfigurations, MayHaveAnyScalarAsId) {
     EXPECT_EQ(r.count, 2u) << id;
   }
   std::istringstream in(named(can_on_box, "[0]"));
-  EXPECT_THAT(
-      [&] { ConfigurationFile file(in); },
-      ThrowsMessage<InvalidInput>(HasSubstr("line 1: id is [0]: must be a string, a number, true")));
+  EXPECT_THAT([&] { ConfigurationFile file(in); },
+              ThrowsMessage<InvalidInput>(
+                  HasSubstr("line 1: id is [0]: must be a string, a number, true")));
 }
 
 TEST(ReportOfGivenAnswers, TellsItsConfigurationsFromOthers) {
