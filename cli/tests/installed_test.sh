@@ -21,7 +21,7 @@ mv "$folder/part/touchstone-host" "$folder/part/candidates/"
 # It is on the PATH, and what it prints is run so.
 expect 1 "^  echo '{.*}' | touchstone replay - --candidates bullet" check --candidate bullet --pair cylinder-box \
   --class edge-cap --count 1 --law agreement
-expect 0 '^    touchstone replay cylinder-' report --pair cylinder-plane --class general-shallow --count 3 \
+expect 0 '^  touchstone replay cylinder-' report --pair cylinder-plane --class general-shallow --count 3 \
   --candidates bullet,capsule --out "$folder/report"
 ! grep -qF ./touchstone - "$folder"/report/report.* <<<"$printed" || failed "there is no ./touchstone to run"
 

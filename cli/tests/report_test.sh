@@ -37,7 +37,7 @@ expect 0 'bullet' replay "$folder/poses.jsonl" --id two
 expect 0 '^No change[.]$' compare "$folder/own/report.json" "$folder/own/report.json"
 expect 2 '^error: --configurations is ".*poses.jsonl": leaves no choice of --pair, --class, --group or --count' \
   "${own[@]}" --count 3
-expect 2 '^error: .*: line 1.line is no JSON' report --configurations <(echo rubbish) --candidates reference
+expect 2 '^error: .*: line 1: line is no JSON' report --configurations <(echo rubbish) --candidates reference
 expect 2 '^error: --configurations is "/dev/null": must have a configuration' report --configurations /dev/null
 # What is given twice counts once.
 expect 0 '^1 configuration, ' report --pair cylinder-plane,cylinder-plane --class lying,lying --count 1 \

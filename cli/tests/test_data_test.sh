@@ -18,13 +18,13 @@ expect 2 "^error: $folder/given.jsonl: line 2: line is no JSON" score "$folder/g
 grep -q '"configurations": 1,' "$folder/given/report.json" ||
   failed "score loses what is good beside a bad line"
 sed -i 2d "$folder/given.jsonl"
-expect 0 'cylinder-plane, degenerate poses' score "$folder/given.jsonl" --name mine --out "$folder/given"
+expect 0 '^candidate degen' score "$folder/given.jsonl" --name mine --out "$folder/given"
 expect 2 '^error: --name is missing' score "$folder/given.jsonl" --out "$folder/given"
 # Ids are as `solve` takes them; what cannot be used is told with its file.
 echo '{"id":0,"a":{"shape":"cylinder","radius":1,"half_length":1},"b":{"shape":"sphere","radius":1}}' >"$folder/poses.jsonl"
 echo '{"id":0,"status":"none"}' >"$folder/own.jsonl"
 own=(score "$folder/own.jsonl" --configurations "$folder/poses.jsonl" --name mine --out "$folder/given")
-expect 0 '^cylinder-sphere, given poses' "${own[@]}"
+expect 0 '^candidate given' "${own[@]}"
 expect 0 '"id":0' solve "$folder/poses.jsonl" --candidates reference
 sed -i 's/0,/[0],/' "$folder/poses.jsonl"
 expect 2 "^error: $folder/poses.jsonl: line 1: id is \[0\]: must be a string, a number, true, false or null" "${own[@]}"

@@ -54,8 +54,8 @@ function needTable(verdicts) {
   const row = (cells, spread) => compares ? [...cells, spread] : cells;
   return table(row(['', 'need', 'measured', 'at'], 'exact runs differ by').map(textColumn), [
     ...verdicts.map((v, i) => row([
-      element('td', {class: v.holds ? 'good text' : 'bad text'}, v.holds ? 'holds' : 'broken'), wide(needs[i].text),
-      measured(v.value, needs[i]), `${v.time.toFixed(2)} s${v.bodies ? `, ${v.bodies}` : ''}`], needs[i].spread === null ? '' : measured(needs[i].spread, needs[i]))),
+      element('td', {class: v.holds ? 'good text' : 'bad text'}, v.holds ? 'holds' : 'broken'), wide(v.bodies && !v.holds ? `${needs[i].text} (${v.bodies})` : needs[i].text),
+      measured(v.value, needs[i]), `${v.time.toFixed(2)} s`], needs[i].spread === null ? '' : measured(needs[i].spread, needs[i]))),
     ...undecidable.map(u => row([element('td', {class: 'text'}, 'undecidable'), wide(u.text), '', ''], measured(u.spread, u)))],
   'What was measured of each need, and when');
 }
