@@ -37,8 +37,8 @@ const countsOf = ({pair, candidate}, group) => classCounts.get(`${pair}/${candid
 const otherGroups = () => Object.keys(groupMeanings).filter(g => g !== chosen.group);
 // What is right in the poses that are chosen may fail in others.
 function elsewhere(r) {
-  const n = otherGroups().reduce((sum, g) => sum + countsOf(r, g).fail, 0);
-  return n ? `elsewhere: ${n} ${n === 1 ? 'class fails' : 'classes fail'}` : '';
+  const counts = otherGroups().map(g => countsOf(r, g)), sum = key => counts.reduce((n, c) => n + c[key], 0), n = sum('fail');
+  return n ? `elsewhere: ${n} of ${sum('of')} ${n === 1 ? 'classes fails' : 'classes fail'}` : '';
 }
 const isGiven = name => report.candidates.some(c => c.name === name && c.given);  // its answers came in a file
 const replayOf = (id, candidate) => `${programOf(candidate)} replay ${id}` + (isGiven(candidate) ? '' : ` --candidates ${candidate}`);
@@ -75,7 +75,7 @@ function verdict() {
       : [perfect.length ? `Right in all ${where}: ` : `Most often right in ${where}: `,
          ...best.flatMap((r, i) => [i ? '; ' : '', ...told(r, perfect.length ? '' : undefined)]),
          perfect.length > 3 ? `; and ${perfect.length - 3} more. ` : '. ',
-         ...(fastest && !best.includes(fastest) ? ['Fastest: ', ...told(fastest), '. '] : []),
+         ...(fastest && !best.includes(fastest) ? [others.length < rows.length ? 'Fastest but for the yardstick: ' : 'Fastest: ', ...told(fastest), '. '] : []),
          ...(others.length ? rows.filter(r => own(r.candidate)) : []).flatMap(r => ['Yardstick: ', ...told(r), '.'])]));
 }
 
@@ -94,7 +94,7 @@ function answerMatrix() {
                    elsewhere(r), `worst error ${exponent(worst)}, 99th percentile ${exponent(quantile(r.severity, 'p99'))}`, 'Click for its worst classes and cases'].filter(Boolean).join('\n'));
     whenPressed(cell, () => showFailures(pair, name));
     return cell;
-  }, element('span', {}, `${isWorst ? 'Worst error, in sizes, and contacts lost' : 'Answers that agree with the truth, and median time of a query,'} in ${chosen.group} poses`,
+  }, element('span', {}, `${isWorst ? 'Worst error, in sizes, and contacts lost' : `Answers that agree with the truth in depth, normal and points to ${exponent(report.tolerance, 1)} of the size, and median time of a query,`} in ${chosen.group} poses`,
       element('span', {class: 'wide'}, `: ${groupMeanings[chosen.group]}`)));
 }
 // Goes to the worst classes and cases of a candidate on a pair.
@@ -113,6 +113,7 @@ function speedChart() {
   if (rows.length === 0) return clearChart(place, 'No candidate was timed.');
   // The front is that of the medians; candidates whose spreads of time overlap tie (reports/statistics.hpp).
   const front = charted === time ? rows.filter(r => r.pareto).sort((a, b) => time(a) - time(b)) : [];
+  byId('front-words').hidden = front.length < 2;
   const at = r => ({x: charted(r), y: Math.max(r.depth_error.p99, minChartedError)});
   const points = rows.map((r, i) => ({...markData(r.candidate), ...at(r), order: front.includes(r) ? i : 1000 + i,
       label: `${r.candidate}${runsText(r.candidate)}${coveredText(r)}`, weight: front.includes(r) ? 'bold' : 'normal',
