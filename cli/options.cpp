@@ -35,9 +35,9 @@ CandidateOption::CandidateOption(Command& command, bool has_default)
 }
 
 std::vector<const Candidate*> CandidateOption::get() const {
-  const auto candidates = asks_all_        ? all_candidates()
-                          : names_.empty() ? default_candidates()
-                                           : find_candidates(names_);
+  auto candidates = asks_all_        ? all_candidates()
+                    : names_.empty() ? default_candidates()
+                                     : find_candidates(names_);
   if (candidates.empty()) {
     throw InvalidInput("--candidates", "empty",
                        "no plug-ins are where the program looks for them; touchstone list "

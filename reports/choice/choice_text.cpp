@@ -30,7 +30,8 @@ namespace {
 
 /// When a need was broken, and by which of its bodies; of one that holds, which came nearest.
 std::string when(const SceneFile& file, const Verdict& verdict) {
-  const std::string bodies = bodies_of(file, verdict), named = bodies.empty() ? "" : ", " + bodies;
+  const std::string bodies = bodies_of(file, verdict);
+  std::string named = bodies.empty() ? "" : ", " + bodies;
   if (verdict.holds()) return named;
   return fmt::format(" at {:.2f} s{}{}", verdict.time, named, bodies.empty() ? "" : " first");
 }
