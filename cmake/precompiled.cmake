@@ -49,6 +49,12 @@ precompiled(touchstone_writer_headers
   OPTIONS ${RARELY_RUN}
   LIBRARIES ${COMMON_LIBRARIES} touchstone_warnings
   HEADERS ${COMMON_HEADERS})
+# Modules export what is marked and nothing else.
+precompiled(touchstone_plugin_headers
+  OPTIONS ${SAME_BITS} -fvisibility=hidden -fvisibility-inlines-hidden
+  LIBRARIES Eigen3::Eigen touchstone_warnings
+  HEADERS <algorithm> <array> <cmath> <limits> <memory> <optional> <string> <utility> <vector>
+    <Eigen/Geometry>)
 if(TOUCHSTONE_TESTS)
   precompiled(touchstone_test_headers
     OPTIONS ${RARELY_RUN}
