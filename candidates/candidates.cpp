@@ -7,6 +7,7 @@
 #include <deque>
 #include <dlfcn.h>
 #include <fstream>
+#include <stdexcept>
 #include <system_error>
 
 #include "candidates/host/plugin_process.hpp"
@@ -305,6 +306,7 @@ struct ToTsShape {
     const Vec3& h = s.half_extents();
     return {TS_BOX, {h.x(), h.y(), h.z()}};
   }
+  ts_shape operator()(const Convex&) const { throw std::logic_error("convex: later stage"); }
 };
 
 /// The numbers of "1..64".
@@ -329,6 +331,7 @@ std::vector<double> sweep(const Candidate& family, std::string_view text) {
 }  // namespace
 
 bool Candidate::has_routine_for(Pair pair) const {
+  if (pair == Pair::convex) return false;  // convex: later stage
   constexpr ts_shape_kind kinds[] = {TS_PLANE, TS_SPHERE, TS_CAPSULE, TS_CYLINDER, TS_BOX};
   static_assert(std::size(kinds) == std::size(all_pairs));
   return supports[kinds[static_cast<std::size_t>(pair)]];

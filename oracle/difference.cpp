@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -106,6 +107,7 @@ struct Lengths {
   void include(const Capsule& s) { scale.include(Vec3(s.radius(), s.half_length(), 0)); }
   void include(const Sphere& s) { scale.include(s.radius()); }
   void include(const Box& s) { scale.include(s.half_extents()); }
+  void include(const Convex&) { throw std::logic_error("convex: later stage"); }
   void include(const Plane& s) { scale.include(s.displacement()); }
 };
 

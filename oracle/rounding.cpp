@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <utility>
 #include <variant>
 
@@ -50,6 +51,7 @@ struct Reach {
     const Vec3& h = s.half_extents();
     return mpq_class(h.x()) + mpq_class(h.y()) + mpq_class(h.z());
   }
+  mpq_class operator()(const Convex&) const { throw std::logic_error("convex: later stage"); }
   mpq_class operator()(const Sphere&) const { return 0; }
   mpq_class operator()(const Plane&) const { return 0; }
 };

@@ -33,6 +33,11 @@ struct ShownShape {
   std::string operator()(const Box& s) const {
     return fmt::format("box half_extents {}", shown(s.half_extents()));
   }
+  std::string operator()(const Convex& s) const {
+    std::string text = "convex vertices";
+    for (const Vec3& v : s.vertices()) text += ' ' + shown(v);
+    return text;
+  }
 };
 
 }  // namespace

@@ -212,7 +212,7 @@ class Covering {
 template <std::size_t strength, int suite = std::numeric_limits<int>::max()>
 const std::vector<PoseClass>& covering(Pair pair) {
   static const auto all = [] {
-    std::array<std::vector<PoseClass>, std::size(all_pairs)> result;
+    std::array<std::vector<PoseClass>, std::size(known_pairs)> result;
     for (const Pair p : all_pairs) {
       result[static_cast<std::size_t>(p)] = Covering(p, strength, suite).classes();
     }

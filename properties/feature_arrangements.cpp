@@ -189,6 +189,8 @@ std::vector<Arrangement> feature_arrangements(Pair pair) {
     case Pair::box:
       add_box_features(out);
       break;
+    case Pair::convex:
+      break;
   }
   if (pair != Pair::plane) {
     out.push_back({"concentric",

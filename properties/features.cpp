@@ -79,6 +79,7 @@ struct PointOnB {
   Vec3 operator()(const Box& s) const {
     return in_world(axes, point_on_box(draw, s.half_extents(), feature, in_body(axes, n), edge));
   }
+  Vec3 operator()(const Convex&) const { throw std::logic_error("no features of a hull"); }
   Vec3 operator()(const Plane& s) const {
     // n is the plane's unit normal here.
     const double length = std::sqrt(dot(s.normal(), s.normal()));
@@ -155,6 +156,8 @@ Shape draw_other(Draw& draw, Pair pair) {
       const double x = size(), y = size(), z = size();
       return Box(Vec3(x, y, z));
     }
+    case Pair::convex:
+      break;
   }
   throw std::logic_error("no such pair");
 }

@@ -211,6 +211,7 @@ std::vector<Feature> features_of_b(Pair pair) {
     case Pair::cylinder:
       return {cap, side, rim, rim};
     case Pair::box:
+    case Pair::convex:
       break;
   }
   return {cap, edge, vertex};

@@ -59,6 +59,8 @@ Shape other_shape(Pair pair, const Lattice& l, const Sizes& s) {
       return Cylinder(l.length(s.radius_b), l.length(s.half_b));
     case Pair::box:
       return Box(Vec3(l.length(s.radius_b), l.length(s.other_b), l.length(s.half_b)));
+    case Pair::convex:
+      break;
   }
   throw std::logic_error("no such pair");
 }

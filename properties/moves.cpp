@@ -1,10 +1,20 @@
 #include "properties/moves.hpp"
 
+#include <utility>
+#include <vector>
+
 namespace touchstone {
 namespace {
 
 Pose turned_in_place(const Pose& pose, const Eigen::Quaterniond& local) {
   return {pose.position(), pose.unit_orientation() * local};
+}
+
+/// The same faces of vertices that a power of two or a small step has moved.
+Convex with_vertices(const Convex& s, std::vector<Vec3> vertices) {
+  std::vector<std::vector<int>> faces;
+  for (const Convex::Face& face : s.faces()) faces.push_back(face.vertices);
+  return {std::move(vertices), std::move(faces)};
 }
 
 struct Scaled {
@@ -17,13 +27,19 @@ struct Scaled {
   }
   Shape operator()(const Sphere& s) const { return Sphere(factor * s.radius()); }
   Shape operator()(const Box& s) const { return Box(factor * s.half_extents()); }
+  Shape operator()(const Convex& s) const {
+    std::vector<Vec3> vertices = s.vertices();
+    for (Vec3& v : vertices) v *= factor;
+    return with_vertices(s, std::move(vertices));
+  }
   Shape operator()(const Plane& s) const { return Plane(s.normal(), factor * s.displacement()); }
 };
 
 }  // namespace
 
 bool is_round(const Shape& shape) {
-  return !std::holds_alternative<Box>(shape) && !std::holds_alternative<Plane>(shape);
+  return !std::holds_alternative<Box>(shape) && !std::holds_alternative<Plane>(shape) &&
+         !std::holds_alternative<Convex>(shape);
 }
 
 Configuration exchanged(const Configuration& c) {
@@ -57,7 +73,9 @@ Configuration spun(const Configuration& c, double angle) {
 Configuration flipped(const Configuration& c) {
   const Eigen::Quaterniond half_turn(0, 1, 0, 0);
   return {c.a, turned_in_place(c.pose_a, half_turn), c.b,
-          std::holds_alternative<Plane>(c.b) ? c.pose_b : turned_in_place(c.pose_b, half_turn)};
+          std::holds_alternative<Plane>(c.b) || std::holds_alternative<Convex>(c.b)
+              ? c.pose_b
+              : turned_in_place(c.pose_b, half_turn)};
 }
 
 Shape scaled(const Shape& shape, double factor) { return std::visit(Scaled{factor}, shape); }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <initializer_list>
 
+#include "oracle/hull.hpp"
 #include "properties/draw.hpp"
 
 namespace touchstone {
@@ -19,6 +20,8 @@ Shape body_b(const Numbers& n) {
       return Capsule(s[2], s[3]);
     case Pair::cylinder:
       return Cylinder(s[2], s[3]);
+    case Pair::convex:
+      return oracle::convex_hull(n.vertices);
     case Pair::box:
       break;
   }
@@ -30,6 +33,7 @@ Shape body_b(const Numbers& n) {
 std::size_t size_count(Pair pair) {
   switch (pair) {
     case Pair::plane:
+    case Pair::convex:
       return 2;
     case Pair::sphere:
       return 3;
@@ -59,6 +63,7 @@ Numbers numbers_of(const Configuration& c) {
   if (const auto* s = std::get_if<Box>(&c.b)) {
     add({s->half_extents().x(), s->half_extents().y(), s->half_extents().z()});
   }
+  if (const auto* s = std::get_if<Convex>(&c.b)) n.vertices = s->vertices();
   if (const auto* s = std::get_if<Plane>(&c.b)) {
     n.normal = s->normal();
     n.displacement = s->displacement();
@@ -81,6 +86,7 @@ std::vector<double*> every_number(Numbers& n) {
   all.insert(all.end(), {&n.sizes[0], &n.sizes[1]});
   add_pose(n.position_a, n.orientation_a);
   for (std::size_t i = 2; i < n.sizes.size(); ++i) all.push_back(&n.sizes[i]);
+  for (Vec3& vertex : n.vertices) add_vector(vertex);
   if (n.pair == Pair::plane) {
     add_vector(n.normal);
     all.push_back(&n.displacement);
@@ -99,6 +105,9 @@ void turn_both(Numbers& n, const Eigen::Quaterniond& by) {
 void scale_both(Numbers& n, int exponent) {
   const auto scaled = [&](double& x) { x = std::ldexp(x, exponent); };
   for (double& size : n.sizes) scaled(size);
+  for (Vec3& vertex : n.vertices) {
+    for (int i = 0; i < 3; ++i) scaled(vertex[i]);
+  }
   for (int i = 0; i < 3; ++i) scaled(n.position_a[i]), scaled(n.position_b[i]);
   scaled(n.displacement);
 }

@@ -9,14 +9,15 @@ namespace touchstone {
 /// A configuration as plain numbers that can be changed one by one.
 struct Numbers {
   Pair pair = Pair::plane;
-  std::vector<double> sizes;  ///< all > 0: radius and half length of A, then B's
+  std::vector<double> sizes;        ///< all > 0: radius and half length of A, then B's
+  std::vector<Vec3> vertices = {};  ///< of a convex body, whose hull is made anew
   Vec3 position_a = Vec3::Zero(), position_b = Vec3::Zero();
   Eigen::Quaterniond orientation_a{1, 0, 0, 0}, orientation_b{1, 0, 0, 0};
   Vec3 normal = Vec3::Zero();  ///< of a plane
   double displacement = 0;     ///< of a plane
 };
 
-/// Number of lengths of both shapes; a plane has none.
+/// Number of lengths of both shapes; a plane and a hull have none.
 std::size_t size_count(Pair pair);
 
 Numbers numbers_of(const Configuration& configuration);

@@ -24,8 +24,8 @@ std::vector<Arrangement> make_arrangements(Pair pair) {
 
 /// One of each pair, made when it is first asked for.
 template <class Value, class Make>
-std::array<Value, std::size(all_pairs)> of_each_pair(const Make& make) {
-  std::array<Value, std::size(all_pairs)> result;
+std::array<Value, std::size(known_pairs)> of_each_pair(const Make& make) {
+  std::array<Value, std::size(known_pairs)> result;
   for (const Pair pair : all_pairs) result[static_cast<std::size_t>(pair)] = make(pair);
   return result;
 }

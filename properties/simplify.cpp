@@ -132,6 +132,7 @@ int complexity(const Configuration& c) {
   const Numbers n = numbers_of(c);
   int sum = 0;
   for (const double size : n.sizes) sum += complexity(size);
+  for (const Vec3& vertex : n.vertices) sum += 1 + total(vertex);
   return sum + total(n.position_a) + total(n.position_b) + complexity(n.orientation_a) +
          complexity(n.orientation_b) + total(n.normal) + complexity(n.displacement);
 }
@@ -149,6 +150,14 @@ std::vector<Configuration> simpler(const Configuration& configuration) {
   for (std::size_t i = 0; i < start.sizes.size(); ++i) {
     for (const double x : simpler_numbers(start.sizes[i], true)) {
       steps.add([&](Numbers& n) { n.sizes[i] = x; });
+    }
+  }
+  for (std::size_t i = 0; i < start.vertices.size(); ++i) {
+    steps.add([i](Numbers& n) { n.vertices.erase(n.vertices.begin() + static_cast<long>(i)); });
+    for (int k = 0; k < 3; ++k) {
+      for (const double x : simpler_numbers(start.vertices[i][k], false)) {
+        steps.add([&](Numbers& n) { n.vertices[i][k] = x; });
+      }
     }
   }
   for (const auto vector : {&Numbers::position_a, &Numbers::position_b, &Numbers::normal}) {

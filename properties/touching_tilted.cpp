@@ -138,6 +138,8 @@ std::vector<Way> ways_of(Pair pair) {
     case Pair::box:
       return {rim_on_face,     edge_on_cap,   edge_across_rim, edge_across_side,
               edge_along_side, vertex_on_cap, vertex_on_side,  vertex_on_rim};
+    case Pair::convex:
+      break;
   }
   return {};
 }

@@ -182,14 +182,17 @@ bool sizes_in_range(const Cylinder& a, const Other& b) {
 template <class Other>
 constexpr bool is_formula = std::is_same_v<Other, Plane> || std::is_same_v<Other, Sphere>;
 
+template <class Other>
+constexpr bool is_looked_at = std::is_same_v<Other, Cylinder> || std::is_same_v<Other, Box>;
+
 /// Calls answer(i, gap, normal) of each pair in turn with what is found of it, a gap above
 /// `stop_above` or that of a formula, or `undecided`; normal() is then the normal.
 template <class Other, class Answer>
 void look_at_each(const Cylinder& a, std::span<const Pose> poses_a, const Other& b,
                   std::span<const Pose> poses_b, double stop_above, Answer answer) {
   const std::size_t all = poses_a.size();
-  const bool in_range = sizes_in_range(a, b);
   if constexpr (is_formula<Other>) {
+    const bool in_range = sizes_in_range(a, b);
     for (std::size_t i = 0; i < all; ++i) {
       const auto pair = posed_pair(a, poses_a[i], b, poses_b[i]);
       const SignedDistance found = closed_form(pair.a, pair.b, stop_above);
@@ -197,8 +200,8 @@ void look_at_each(const Cylinder& a, std::span<const Pose> poses_a, const Other&
       answer(i, is_found ? found.value : undecided, [&] { return found.normal; });
     }
     return;
-  } else if constexpr (!std::is_same_v<Other, Capsule>) {
-    if (in_range && stop_above < no_early_exit) {
+  } else if constexpr (is_looked_at<Other>) {
+    if (sizes_in_range(a, b) && stop_above < no_early_exit) {
       Block<Other> block(a, b);
       for (std::size_t first = 0; first < all; first += width) {
         const std::size_t count = std::min(width, all - first);

@@ -15,12 +15,17 @@ struct Configuration {
 };
 
 /// Which shape meets the cylinder.
-enum class Pair { plane, sphere, capsule, cylinder, box };
+enum class Pair { plane, sphere, capsule, cylinder, box, convex };
+/// Those for which there are pose classes: the bodies that they draw have sizes, a hull has not.
 inline constexpr Pair all_pairs[] = {Pair::plane, Pair::sphere, Pair::capsule, Pair::cylinder,
                                      Pair::box};
+/// And those that only given configurations have.
+inline constexpr Pair known_pairs[] = {Pair::plane,    Pair::sphere, Pair::capsule,
+                                      Pair::cylinder, Pair::box,    Pair::convex};
 
 Pair pair_of(const Configuration& configuration);
-/// "cylinder-plane", "cylinder-sphere", "cylinder-capsule", "cylinder-cylinder", "cylinder-box".
+/// "cylinder-plane", "cylinder-sphere", "cylinder-capsule", "cylinder-cylinder", "cylinder-box",
+/// "cylinder-convex".
 const char* pair_name(Pair pair);
 
 /// The smallest half extent of both bodies: the length to which depth errors are relative.

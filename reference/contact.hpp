@@ -95,6 +95,8 @@ SignedDistance signed_distance(const Cylinder& a, const Pose& pose_a, const Cyli
                                const Pose& pose_b);
 SignedDistance signed_distance(const Cylinder& a, const Pose& pose_a, const Box& b,
                                const Pose& pose_b);
+SignedDistance signed_distance(const Cylinder& a, const Pose& pose_a, const Convex& b,
+                               const Pose& pose_b);
 
 /// Returns the same with a bound of its error: tries every kind of normal and searches all rims,
 /// whatever proves itself on the way (proofs.md). The bound is rounding where that is proven
@@ -110,6 +112,8 @@ CertifiedDistance certified_distance(const Cylinder& a, const Pose& pose_a, cons
                                      const Pose& pose_b);
 CertifiedDistance certified_distance(const Cylinder& a, const Pose& pose_a, const Box& b,
                                      const Pose& pose_b);
+CertifiedDistance certified_distance(const Cylinder& a, const Pose& pose_a, const Convex& b,
+                                     const Pose& pose_b);
 
 /// Returns whether the bodies share a point; those that touch do, as far as rounding can tell.
 bool overlaps(const Cylinder& a, const Pose& pose_a, const Plane& b, const Pose& pose_b);
@@ -117,6 +121,7 @@ bool overlaps(const Cylinder& a, const Pose& pose_a, const Sphere& b, const Pose
 bool overlaps(const Cylinder& a, const Pose& pose_a, const Capsule& b, const Pose& pose_b);
 bool overlaps(const Cylinder& a, const Pose& pose_a, const Cylinder& b, const Pose& pose_b);
 bool overlaps(const Cylinder& a, const Pose& pose_a, const Box& b, const Pose& pose_b);
+bool overlaps(const Cylinder& a, const Pose& pose_a, const Convex& b, const Pose& pose_b);
 
 /// Returns signed distance, normal and points where the distance is at most `contact_threshold`;
 /// else no points, as soon as a direction proves it larger, and the clearance along that. README.md
@@ -136,6 +141,9 @@ Contact contact(const Cylinder& a, const Pose& pose_a, const Cylinder& b, const 
                 double contact_threshold, const Vec3* previous_normal = nullptr,
                 PointRange range = PointRange::near_deepest);
 Contact contact(const Cylinder& a, const Pose& pose_a, const Box& b, const Pose& pose_b,
+                double contact_threshold, const Vec3* previous_normal = nullptr,
+                PointRange range = PointRange::near_deepest);
+Contact contact(const Cylinder& a, const Pose& pose_a, const Convex& b, const Pose& pose_b,
                 double contact_threshold, const Vec3* previous_normal = nullptr,
                 PointRange range = PointRange::near_deepest);
 

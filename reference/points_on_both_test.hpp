@@ -32,6 +32,14 @@ inline double outside(const Capsule& s, const Vec3& x) {
 inline double outside(const Box& s, const Vec3& x) {
   return (x.cwiseAbs() - s.half_extents()).maxCoeff();
 }
+/// Of the face that it is farthest outside of: less than the distance beyond edges and vertices.
+inline double outside(const Convex& s, const Vec3& x) {
+  double most = -std::numeric_limits<double>::infinity();
+  for (const Convex::Face& face : s.faces()) {
+    most = std::max(most, face.normal.dot(x - s.vertices()[face.vertices.front()]));
+  }
+  return most;
+}
 inline double outside(const Shape& shape, const Pose& pose, const Vec3& x) {
   const Vec3 local = pose.rotation().transpose() * (x - pose.position());
   return std::visit([&](const auto& s) { return outside(s, local); }, shape);

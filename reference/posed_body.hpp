@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Geometry>
 
@@ -45,6 +46,12 @@ struct PosedBox {
   Vec3 half_extents;
 };
 
+struct PosedConvex {
+  Vec3 centre;  ///< the origin of the body's frame, which may be far from its vertices
+  const Eigen::Matrix3d& axes;
+  const Convex& body;
+};
+
 inline PosedCylinder posed(const Cylinder& s, const Pose& pose, const auto& centre) {
   return {centre, s.radius(), s.half_length(), pose.rotation()};
 }
@@ -60,6 +67,9 @@ inline PosedCapsule posed(const Capsule& s, const Pose& pose, const auto& centre
 inline PosedBox posed(const Box& s, const Pose& pose, const auto& centre) {
   return {centre, pose.rotation(), s.half_extents()};
 }
+inline PosedConvex posed(const Convex& s, const Pose& pose, const auto& centre) {
+  return {centre, pose.rotation(), s};
+}
 
 /// max over the body of (x − centre)·n for a unit n.
 inline double reach(const PosedCylinder& s, const Vec3& n) {
@@ -71,6 +81,12 @@ inline double reach(const PosedCapsule& s, const Vec3& n) {
 }
 inline double reach(const PosedBox& s, const Vec3& n) {
   return s.half_extents.dot((s.axes.transpose() * n).cwiseAbs());
+}
+inline double reach(const PosedConvex& s, const Vec3& n) {
+  const Vec3 local = s.axes.transpose() * n;
+  double most = -std::numeric_limits<double>::infinity();
+  for (const Vec3& v : s.body.vertices()) most = std::max(most, v.dot(local));
+  return most;
 }
 
 /// How far a point lies outside a body, metres; less than zero or zero inside.

@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <sstream>
 #include <string>
+#include <utility>
+
+#include <Eigen/Geometry>
 
 #include "invalid_input.hpp"
 
@@ -68,8 +72,123 @@ Box::Box(const Vec3& half_extents) : half_extents_(half_extents) {
   for (int i = 0; i < 3; ++i) checked_size(fields[i], half_extents[i]);
 }
 
+namespace {
+
+/// Half of their sum, which may overflow.
+double middle_of(double low, double high) { return low / 2 + high / 2; }
+
+[[noreturn]] void refuse_faces(const std::string& field, const std::string& value,
+                               const char* remedy) {
+  throw InvalidInput(field, value, remedy);
+}
+
+/// Every pair of neighbours in a face, to the faces on its two sides.
+std::vector<Convex::Edge> edges_of(const std::vector<Convex::Face>& faces) {
+  std::map<std::array<int, 2>, int> left;  // from, to: the face that runs that way
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    const auto& v = faces[f].vertices;
+    for (std::size_t i = 0; i < v.size(); ++i) {
+      const std::array<int, 2> way{v[i], v[(i + 1) % v.size()]};
+      if (!left.emplace(way, static_cast<int>(f)).second) {
+        refuse_faces("faces[" + std::to_string(f) + "]",
+                     std::to_string(way[0]) + " to " + std::to_string(way[1]),
+                     "must run along an edge once, counterclockwise seen from outside");
+      }
+    }
+  }
+  std::vector<Convex::Edge> edges;
+  for (const auto& [way, face] : left) {
+    const auto back = left.find({way[1], way[0]});
+    if (back == left.end()) {
+      refuse_faces("faces[" + std::to_string(face) + "]",
+                   std::to_string(way[0]) + " to " + std::to_string(way[1]),
+                   "must meet another face along every edge");
+    }
+    if (way[0] < way[1]) edges.push_back({way, {face, back->second}});
+  }
+  return edges;
+}
+
+}  // namespace
+
+Convex::Convex(std::vector<Vec3> vertices, std::vector<std::vector<int>> faces) {
+  const auto at = [](const char* name, std::size_t i) {
+    return std::string(name) + '[' + std::to_string(i) + ']';
+  };
+  const std::size_t count = vertices.size();
+  if (count < 3 || count > max_vertices) {
+    throw InvalidInput("vertices", std::to_string(count), "must be 3 to 4096 points");
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    for (int k = 0; k < 3; ++k) checked_finite(at("vertices", i) + at("", k), vertices[i][k]);
+  }
+  auto data = std::make_shared<Data>();
+  Vec3 low = vertices.front(), high = low;
+  for (const Vec3& v : vertices) low = low.cwiseMin(v), high = high.cwiseMax(v);
+  data->half_extents = high / 2 - low / 2;
+  for (int k = 0; k < 3; ++k) data->middle[k] = middle_of(low[k], high[k]);
+  const double largest = data->half_extents.maxCoeff();
+
+  // Numbers of about one about the middle, so that no product overflows or vanishes.
+  const int exponent = largest > 0 ? -std::ilogb(largest) : 0;
+  std::vector<Vec3> unit(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    unit[i] = (vertices[i] - data->middle).unaryExpr([exponent](double x) {
+      return std::ldexp(x, exponent);
+    });
+  }
+  std::vector<bool> used(count);
+  std::vector<Vec3> areas;  // of the faces, twice
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    Face face{std::move(faces[f]), Vec3::Zero()};
+    if (face.vertices.size() < 3) {
+      refuse_faces(at("faces", f), std::to_string(face.vertices.size()),
+                   "must have three vertices or more");
+    }
+    for (const int v : face.vertices) {
+      if (v < 0 || static_cast<std::size_t>(v) >= count) {
+        refuse_faces(at("faces", f), std::to_string(v), "must be indices of vertices");
+      }
+      used[v] = true;
+    }
+    Vec3 area = Vec3::Zero();
+    const Vec3& first = unit[face.vertices.front()];
+    for (std::size_t i = 2; i < face.vertices.size(); ++i) {
+      area += (unit[face.vertices[i - 1]] - first).cross(unit[face.vertices[i]] - first);
+    }
+    face.normal = area.stableNormalized();
+    areas.push_back(area);
+    data->faces.push_back(std::move(face));
+  }
+  data->edges = edges_of(data->faces);
+  const auto unused = std::find(used.begin(), used.end(), false);
+  if (unused != used.end()) {
+    throw InvalidInput(at("vertices", static_cast<std::size_t>(unused - used.begin())),
+                       "in no face", "must be a corner");
+  }
+  if (count + data->faces.size() != data->edges.size() + 2) {
+    refuse_faces("faces", std::to_string(data->faces.size()), "must be one closed surface");
+  }
+  // A volume, of which rounding is some ulp of the size's cube, however thin a face is.
+  constexpr double rounding = 1e-14;
+  for (std::size_t f = 0; f < areas.size(); ++f) {
+    const Vec3& on_face = unit[data->faces[f].vertices.front()];
+    for (std::size_t i = 0; i < count; ++i) {
+      if ((unit[i] - on_face).dot(areas[f]) > rounding) {
+        refuse_faces(at("faces", f), at("vertices", i) + " is outside",
+                     "must have all vertices on its inner side");
+      }
+    }
+  }
+  data->smallest_half_extent = data->faces.size() == 2
+                                   ? std::ldexp(std::sqrt(areas.front().norm() / 2) / 2, -exponent)
+                                   : data->half_extents.minCoeff();
+  data->vertices = std::move(vertices);
+  data_ = std::move(data);
+}
+
 const char* shape_name(const Shape& shape) {
-  constexpr const char* names[] = {"cylinder", "plane", "sphere", "capsule", "box"};
+  constexpr const char* names[] = {"cylinder", "plane", "sphere", "capsule", "box", "convex"};
   return names[shape.index()];
 }
 
@@ -79,7 +198,8 @@ double smallest_half_extent(const Shape& shape) {
                  [](const Plane&) { return std::numeric_limits<double>::infinity(); },
                  [](const Sphere& s) { return s.radius(); },
                  [](const Capsule& s) { return s.radius(); },
-                 [](const Box& s) { return s.half_extents().minCoeff(); }},
+                 [](const Box& s) { return s.half_extents().minCoeff(); },
+                 [](const Convex& s) { return s.smallest_half_extent(); }},
       shape);
 }
 

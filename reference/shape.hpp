@@ -1,8 +1,12 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <limits>
+#include <memory>
 #include <variant>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -74,14 +78,66 @@ class Box {
   Vec3 half_extents_;
 };
 
-using Shape = std::variant<Cylinder, Plane, Sphere, Capsule, Box>;
+/// A convex polyhedron with its vertices in the body frame, which need not be about the origin; or
+/// a convex polygon in space, as a triangle, which has two faces that look in opposite directions.
+/// Copies share what they hold.
+///
+/// The faces are given, because only exact arithmetic finds them for certain (oracle/hull.hpp does,
+/// of any points): all vertices of a plane face are in one face, and every vertex is a corner.
+class Convex {
+ public:
+  static constexpr std::size_t max_vertices = 4096;
 
-/// Name as in files: "cylinder", "plane", "sphere", "capsule", "box".
+  struct Face {
+    /// Counterclockwise seen from outside; at least three.
+    std::vector<int> vertices;
+    /// Unit, outward, to within rounding of the vertices: of a sliver it is uncertain.
+    Vec3 normal;
+  };
+  struct Edge {
+    /// The first face has them in this order, the second in the other.
+    std::array<int, 2> vertices, faces;
+  };
+
+  /// `faces` are indices of vertices, counterclockwise seen from outside. Throws InvalidInput
+  /// unless there are 3 to max_vertices finite vertices, each of them in a face, the faces have at
+  /// least three different ones each and close (every edge has two faces, which run through it in
+  /// opposite directions; vertices - edges + faces = 2), and no vertex is outside a face by more
+  /// than rounding.
+  Convex(std::vector<Vec3> vertices, std::vector<std::vector<int>> faces);
+
+  const std::vector<Vec3>& vertices() const { return data_->vertices; }
+  const std::vector<Face>& faces() const { return data_->faces; }
+  const std::vector<Edge>& edges() const { return data_->edges; }
+  /// A polygon: without an interior.
+  bool is_flat() const { return faces().size() == 2; }
+  /// Half of the widths along the local axes, and the middle between them.
+  const Vec3& half_extents() const { return data_->half_extents; }
+  const Vec3& middle() const { return data_->middle; }
+  /// Half of the smallest width over the local axes; of a polygon, half the side of a square of its
+  /// area.
+  double smallest_half_extent() const { return data_->smallest_half_extent; }
+
+ private:
+  struct Data {
+    std::vector<Vec3> vertices;
+    std::vector<Face> faces;
+    std::vector<Edge> edges;
+    Vec3 half_extents, middle;
+    double smallest_half_extent;
+  };
+  std::shared_ptr<const Data> data_;
+};
+
+using Shape = std::variant<Cylinder, Plane, Sphere, Capsule, Box, Convex>;
+
+/// Name as in files: "cylinder", "plane", "sphere", "capsule", "box", "convex".
 const char* shape_name(const Shape& shape);
 
 /// Half of the shape's smallest (largest) width over its own axes, in metres. A plane has none:
 /// the smallest is infinite and the largest zero, so that it never decides a minimum or maximum. A
-/// capsule's largest is the largest double where the sum of its two lengths overflows.
+/// capsule's largest is the largest double where the sum of its two lengths overflows. Of a polygon
+/// in space the smallest is half the side of a square of its area.
 double smallest_half_extent(const Shape& shape);
 double largest_half_extent(const Shape& shape);
 inline double largest_half_extent(const Sphere& s) { return s.radius(); }
@@ -92,5 +148,6 @@ inline double largest_half_extent(const Cylinder& s) {
   return s.radius() > s.half_length() ? s.radius() : s.half_length();
 }
 inline double largest_half_extent(const Box& s) { return s.half_extents().maxCoeff(); }
+inline double largest_half_extent(const Convex& s) { return s.half_extents().maxCoeff(); }
 
 }  // namespace touchstone

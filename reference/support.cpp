@@ -1,5 +1,6 @@
 #include "support.hpp"
 
+#include <algorithm>
 #include <limits>
 
 #include "posed_body.hpp"
@@ -46,6 +47,14 @@ Aabb aabb(const Cylinder& shape, const Pose& pose) { return around(shape, pose);
 Aabb aabb(const Sphere& shape, const Pose& pose) { return around(shape, pose); }
 Aabb aabb(const Capsule& shape, const Pose& pose) { return around(shape, pose); }
 Aabb aabb(const Box& shape, const Pose& pose) { return around(shape, pose); }
+Aabb aabb(const Convex& shape, const Pose& pose) {
+  Aabb result;
+  for (int i = 0; i < 3; ++i) {
+    result.lower[i] = pose.position()[i] - centred_support(shape, pose, -Vec3::Unit(i));
+    result.upper[i] = pose.position()[i] + centred_support(shape, pose, Vec3::Unit(i));
+  }
+  return result;
+}
 Aabb aabb(const Plane& shape, const Pose& pose) {
   Aabb result{Vec3::Constant(-infinite), Vec3::Constant(infinite)};
   const Vec3 n = pose.rotation() * shape.unit_normal();

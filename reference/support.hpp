@@ -28,6 +28,7 @@ Aabb aabb(const Plane& shape, const Pose& pose);
 Aabb aabb(const Sphere& shape, const Pose& pose);
 Aabb aabb(const Capsule& shape, const Pose& pose);
 Aabb aabb(const Box& shape, const Pose& pose);
+Aabb aabb(const Convex& shape, const Pose& pose);
 Aabb aabb(const Shape& shape, const Pose& pose);
 
 }  // namespace touchstone

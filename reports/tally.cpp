@@ -293,6 +293,13 @@ std::vector<Vec3> axes(const Shape& shape, const Pose& pose) {
     const Eigen::Matrix3d& r = pose.rotation();
     return {r.col(0), r.col(1), r.col(2)};
   }
+  if (const auto* hull = std::get_if<Convex>(&shape)) {
+    std::vector<Vec3> normals;
+    for (const Convex::Face& face : hull->faces()) {
+      normals.emplace_back(pose.rotation() * face.normal);
+    }
+    return normals;
+  }
   return {pose.axis()};
 }
 

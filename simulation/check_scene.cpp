@@ -44,6 +44,7 @@ void check_shape(const std::string& field, const Body& body) {
     check_between(field + ".displacement", plane->unit_displacement(), -max_in_world, max_in_world);
     return;
   }
+  if (std::holds_alternative<Convex>(body.shape)) refuse_convex();
   const double smallest = smallest_half_extent(body.shape);
   const double largest = largest_half_extent(body.shape);
   if (!(smallest >= min_half_width && largest <= max_in_world)) {

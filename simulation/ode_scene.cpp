@@ -26,6 +26,7 @@ struct MakeGeom {
     const Vec3 side = 2 * s.half_extents();
     return dCreateBox(space, side.x(), side.y(), side.z());
   }
+  dGeomID operator()(const Convex&) const { refuse_convex(); }
 };
 
 /// The posed plane in world coordinates.

@@ -2,6 +2,8 @@
 
 #include <numbers>
 
+#include "reference/invalid_input.hpp"
+
 namespace touchstone {
 namespace {
 
@@ -39,6 +41,7 @@ struct InertiaOf {
     const double mass = density * 8 * h.prod();
     return {mass, mass / 3 * (Vec3::Constant(squared.sum()) - squared)};
   }
+  Inertia operator()(const Convex&) const { refuse_convex(); }
 };
 
 }  // namespace
@@ -49,6 +52,11 @@ Inertia inertia(const Shape& shape, double density) {
 
 PosedInertia inertia(const Body& body) {
   return body.inertia ? *body.inertia : PosedInertia{inertia(body.shape, body.density)};
+}
+
+void refuse_convex() {
+  throw InvalidInput("shape", "\"convex\"",
+                     "must be a plane, sphere, capsule, cylinder or box: scenes have no hulls");
 }
 
 const char* impossible(const Vec3& principal) {

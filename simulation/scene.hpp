@@ -96,6 +96,9 @@ PosedInertia inertia(const Body& body);
 /// largest may exceed the sum of the others (triangle inequality) by a rounding to two digits.
 const char* impossible(const Vec3& principal);
 
+/// Throws InvalidInput: nothing that moves is a hull.
+[[noreturn]] void refuse_convex();
+
 /// Pose and velocities of a body at one time.
 struct BodyState {
   Pose pose;

@@ -6,6 +6,7 @@
 #include <boost/multiprecision/eigen.hpp>
 #include <boost/multiprecision/mpfr.hpp>
 #include <cmath>
+#include <stdexcept>
 #include <string>
 
 #include <Eigen/Core>
@@ -120,6 +121,7 @@ struct Sizes {
   void operator()(const Box& s) const {
     for (int i = 0; i < 3; ++i) body.half_extents[i] = T(s.half_extents()[i]) / unit;
   }
+  void operator()(const Convex&) const { throw std::logic_error("convex: later stage"); }
   void operator()(const Plane&) const {}
 };
 

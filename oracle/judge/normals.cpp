@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <stdexcept>
 #include <variant>
 
 namespace touchstone {
@@ -47,6 +48,7 @@ struct HalfExtent {
   }
   double operator()(const Sphere& s) const { return s.radius() * n.norm(); }
   double operator()(const Box& s) const { return s.half_extents().dot(n.cwiseAbs()); }
+  double operator()(const Convex&) const { throw std::logic_error("convex: later stage"); }
   double operator()(const Plane&) const { return std::numeric_limits<double>::infinity(); }
 };
 
@@ -55,6 +57,7 @@ struct Circumradius {
   double operator()(const Capsule& s) const { return s.radius() + s.half_length(); }
   double operator()(const Sphere& s) const { return s.radius(); }
   double operator()(const Box& s) const { return s.half_extents().norm(); }
+  double operator()(const Convex&) const { throw std::logic_error("convex: later stage"); }
   double operator()(const Plane&) const { return std::numeric_limits<double>::infinity(); }
 };
 

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <stdexcept>
 #include <vector>
 
 #include "oracle/judge/normals.hpp"
@@ -41,6 +42,7 @@ struct Distance {
     const Vec3 beyond = p.cwiseAbs() - s.half_extents();
     return outside_of_all(beyond.x(), beyond.y(), beyond.z());
   }
+  double operator()(const Convex&) const { throw std::logic_error("convex: later stage"); }
   double operator()(const Plane& s) const { return s.unit_normal().dot(p) - s.unit_displacement(); }
 };
 

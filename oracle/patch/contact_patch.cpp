@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <stdexcept>
 
 #include "oracle/patch/convex_set.hpp"
 #include "oracle/patch/feature_overlap.hpp"
@@ -23,6 +24,7 @@ double reach(const Capsule& s, const Vec3& n) {
 }
 double reach(const Sphere& s, const Vec3&) { return s.radius(); }
 double reach(const Box& s, const Vec3& n) { return s.half_extents().dot(n.cwiseAbs()); }
+double reach(const Convex&, const Vec3&) { throw std::logic_error("convex: later stage"); }
 double reach(const Plane& s, const Vec3&) { return s.unit_displacement(); }
 
 double reach(const Shape& shape, const Pose& pose, const Vec3& n) {

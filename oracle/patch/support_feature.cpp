@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 #include "oracle/ball.hpp"
 
@@ -125,6 +126,10 @@ SupportFeature feature(const Box& shape, const PosedShape& body) {
   f.v = body.exact.axes[across[1]];
   f.half_v = shape.half_extents()[across[1]];
   return f;
+}
+
+SupportFeature feature(const Convex&, const PosedShape&) {
+  throw std::logic_error("convex: later stage");
 }
 
 SupportFeature feature(const Plane&, const PosedShape& body) { return body.centred(Kind::plane); }
@@ -272,6 +277,10 @@ struct Part {
     }
   }
 
+  void add(const Convex&, const Vec3&, const Eigen::Matrix3d&) {
+    throw std::logic_error("convex: later stage");
+  }
+
   void add(const Plane&, const Vec3&, const Eigen::Matrix3d&) {}
 };
 
@@ -308,6 +317,9 @@ WidthFromEpsilon width(const Box& shape, const Vec3& n, double epsilon) {
     result.is_a_corner = result.is_a_corner && 2 * h * c > epsilon;
   }
   return result;
+}
+WidthFromEpsilon width(const Convex&, const Vec3&, double) {
+  throw std::logic_error("convex: later stage");
 }
 WidthFromEpsilon width(const Plane&, const Vec3&, double) { return {0, false}; }
 

@@ -98,6 +98,10 @@ inline Cylinder blank<Cylinder>() {
   return {1, 1};
 }
 template <>
+inline Convex blank<Convex>() {
+  return {{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)}, {{0, 1, 2}, {2, 1, 0}}};
+}
+template <>
 inline Shape blank<Shape>() {
   return blank<Sphere>();
 }
@@ -258,6 +262,18 @@ void members(Archive& a, Box& x) {
     x = Box(a.template next<Vec3>());
   } else {
     a(x.half_extents());
+  }
+}
+template <class Archive>
+void members(Archive& a, Convex& x) {
+  std::vector<std::vector<int>> faces;
+  if constexpr (Archive::reads) {
+    auto vertices = a.template next<std::vector<Vec3>>();
+    a(faces);
+    x = Convex(std::move(vertices), std::move(faces));
+  } else {
+    for (const Convex::Face& face : x.faces()) faces.push_back(face.vertices);
+    a(x.vertices(), faces);
   }
 }
 template <class Archive>

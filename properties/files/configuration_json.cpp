@@ -12,6 +12,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "oracle/hull.hpp"
 #include "properties/files/disk.hpp"
 #include "properties/files/given_text.hpp"
 #include "properties/files/strict_json.hpp"
@@ -43,6 +44,11 @@ struct WriteShape {
   }
   json operator()(const Box& s) const {
     return {{"shape", "box"}, {"half_extents", write_vector(s.half_extents(), write)}};
+  }
+  json operator()(const Convex& s) const {
+    json vertices = json::array();
+    for (const Vec3& v : s.vertices()) vertices.push_back(write_vector(v, write));
+    return {{"shape", "convex"}, {"vertices", std::move(vertices)}};
   }
   json operator()(const Plane& s) const {
     return {{"shape", "plane"},
@@ -99,8 +105,22 @@ Shape shape_from_json(const json& value, const std::string& path) {
     const double displacement = size("displacement");
     return at_path(path, [&]() -> Shape { return Plane(normal, displacement); });
   }
-  throw InvalidInput(path + ".shape", shown(kind),
-                     "must be \"cylinder\", \"plane\", \"sphere\", \"capsule\" or \"box\"");
+  if (kind == "convex") {
+    refuse_others(value, {"shape", "vertices"}, path);
+    const json& given = member(value, "vertices", path);
+    const std::string field = path + ".vertices";
+    if (!given.is_array()) {
+      throw InvalidInput(field, shown(given), "must be an array of points, of 3 numbers each");
+    }
+    std::vector<Vec3> vertices;
+    for (std::size_t i = 0; i < given.size(); ++i) {
+      vertices.push_back(vector(given[i], fmt::format("{}[{}]", field, i)));
+    }
+    return at_path(path, [&]() -> Shape { return oracle::convex_hull(vertices); });
+  }
+  throw InvalidInput(
+      path + ".shape", shown(kind),
+      "must be \"cylinder\", \"plane\", \"sphere\", \"capsule\", \"box\" or \"convex\"");
 }
 
 namespace {

@@ -31,6 +31,23 @@ struct FeatureAlong {
   std::string operator()(const Capsule&) const { return is_across(n) ? "side" : "end"; }
   std::string operator()(const Sphere&) const { return "sphere"; }
   std::string operator()(const Plane&) const { return "plane"; }
+  std::string operator()(const Convex& s) const {
+    const auto across = [&](const Convex::Edge& e) {
+      const Vec3 along = s.vertices()[e.vertices[1]] - s.vertices()[e.vertices[0]];
+      return std::abs(along.normalized().dot(n)) < aligned;
+    };
+    for (const Convex::Face& face : s.faces()) {
+      if (face.normal.cross(n).norm() < aligned && face.normal.dot(n) > 0) return "face";
+    }
+    const auto height = [&](int v) { return s.vertices()[v].dot(n); };
+    double highest = -std::numeric_limits<double>::infinity();
+    for (const Vec3& v : s.vertices()) highest = std::max(highest, v.dot(n));
+    const double within = aligned * s.half_extents().maxCoeff();
+    for (const Convex::Edge& e : s.edges()) {
+      if (across(e) && height(e.vertices[0]) > highest - within) return "edge";
+    }
+    return "vertex";
+  }
   std::string operator()(const Box&) const {
     switch ((n.array().abs() < aligned).count()) {
       case 2:

@@ -16,8 +16,9 @@ namespace {
 bool are_same(const Configuration& first, const Configuration& second) {
   if (first.pose_a.position() != second.pose_a.position()) return false;  // most often
   const Numbers x = numbers_of(first), y = numbers_of(second);
-  return x.pair == y.pair && x.sizes == y.sizes && x.position_a == y.position_a &&
-         x.position_b == y.position_b && x.orientation_a.coeffs() == y.orientation_a.coeffs() &&
+  return x.pair == y.pair && x.sizes == y.sizes && x.vertices == y.vertices &&
+         x.position_a == y.position_a && x.position_b == y.position_b &&
+         x.orientation_a.coeffs() == y.orientation_a.coeffs() &&
          x.orientation_b.coeffs() == y.orientation_b.coeffs() && x.normal == y.normal &&
          x.displacement == y.displacement;
 }

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <fmt/format.h>
 #include <memory>
+#include <stdexcept>
 
 #include "reference/engines/drop_in_test.hpp"
 
@@ -18,6 +19,7 @@ std::string size_text(const Capsule& s) {
 }
 std::string size_text(const Sphere& s) { return fmt::format("{}", s.radius()); }
 std::string size_text(const Plane&) { return "1 1 1"; }  // of its picture
+std::string size_text(const Convex&) { throw std::logic_error("no hulls here"); }
 std::string size_text(const Box& s) {
   const Vec3& h = s.half_extents();
   return fmt::format("{} {} {}", h.x(), h.y(), h.z());

@@ -113,6 +113,7 @@ struct SizesOfB {
   Sizes operator()(const Box& s) const {
     return {s.half_extents().x(), s.half_extents().y(), s.half_extents().z()};
   }
+  Sizes operator()(const Convex&) const { return {}; }  // of no class
 };
 
 /// "box" of cylinder-box.

@@ -73,6 +73,7 @@ struct MakeShape {
   Made operator()(const Box& s) const {
     return std::make_unique<btBoxShape>(to_vector(s.half_extents()));
   }
+  Made operator()(const Convex&) const { refuse_convex(); }
 };
 
 /// Margin 0: Bullet's default is added outside a hull.

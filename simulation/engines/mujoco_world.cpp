@@ -67,6 +67,7 @@ struct GeomXml {
     const Vec3& h = s.half_extents();
     return fmt::format("type='box' size='{} {} {}'", h.x(), h.y(), h.z()) + pose_xml(X_FB);
   }
+  std::string operator()(const Convex&) const { refuse_convex(); }
 };
 
 /// Options and defaults of a world whose contacts are as hard as the step allows: by MuJoCo's

@@ -65,6 +65,7 @@ struct Object {
                        povray_vector(s.half_extents()),
                        fixed ? "<0.5,0.52,0.55>" : "<0.7,0.55,0.3>");
   }
+  std::string operator()(const Convex&) const { refuse_convex(); }
   std::string operator()(const Plane& s) const {
     return fmt::format("plane {{ {}, {:.9g} Plain(<0.62,0.64,0.6>)", povray_vector(s.unit_normal()),
                        s.unit_displacement());
