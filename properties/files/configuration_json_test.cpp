@@ -1,0 +1,167 @@
+#include "properties/files/configuration_json.hpp"
+
+#include <gtest/gtest.h>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+
+#include "properties/files/strict_json.hpp"
+#include "reference/invalid_input.hpp"
+
+namespace touchstone {
+namespace {
+
+using nlohmann::json;
+
+json box_configuration() {
+  return json::parse(R"({"id":"c1",
+      "a":{"shape":"cylinder","radius":0.5,"half_length":1},
+      "pose_a":{"position":[0,0,1.5],"orientation":[1,0,0,0]},
+      "b":{"shape":"box","half_extents":[1,2,3]},
+      "pose_b":{"position":[0.1,0,0],"orientation":[0.6,0,0,0.8]}})");
+}
+
+TEST(ConfigurationJson, ReadsWhatItWrites) {
+  const auto given = configuration_from_json(box_configuration());
+  EXPECT_FALSE(given.swapped);
+  const json written = to_json(given.configuration);
+  EXPECT_EQ(to_json(configuration_from_json(written).configuration), written);
+  EXPECT_EQ(written["pose_b"]["position"][0], 0.1);
+}
+
+TEST(ConfigurationJson, HexFloatsKeepEveryBit) {
+  json line = box_configuration();
+  line["a"]["radius"] = "0x1.8p-1";
+  line["a"]["half_length"] = "0.25";
+  line["pose_a"]["position"][0] = std::numeric_limits<double>::denorm_min();
+  const Configuration c = configuration_from_json(line).configuration;
+  EXPECT_EQ(c.a.radius(), 0.75);
+  EXPECT_EQ(c.a.half_length(), 0.25);
+  const json hex = to_hex_json(c);
+  EXPECT_TRUE(hex["a"]["radius"].is_string());
+  EXPECT_EQ(configuration_from_json(hex).configuration.pose_a.position().x(),
+            std::numeric_limits<double>::denorm_min());
+}
+
+TEST(ConfigurationJson, MissingPoseIsTheIdentity) {
+  json line = box_configuration();
+  line.erase("pose_a");
+  line["pose_b"].erase("orientation");
+  const Configuration c = configuration_from_json(line).configuration;
+  EXPECT_EQ(c.pose_a.position(), Vec3::Zero());
+  EXPECT_EQ(c.pose_b.orientation().w(), 1);
+}
+
+TEST(ConfigurationJson, ARotationOrAnAxisStandsInPlaceOfTheQuaternion) {
+  const auto quaternion = [](const char* way, const char* value) {
+    json line = box_configuration();
+    line["pose_a"].erase("orientation");
+    line["pose_a"][way] = json::parse(value);
+    return configuration_from_json(line).configuration.pose_a.orientation().coeffs();
+  };
+  const Eigen::Vector4d to_y(-1, 0, 0, 1), to_x(0, 1, 0, 1);  // x, y, z, w
+  EXPECT_EQ(quaternion("axis", "\"y\""), to_y);
+  EXPECT_EQ(quaternion("axis", "[0, \"0x1p-1\", 0]"), to_y);
+  EXPECT_EQ(quaternion("axis", "\"x\""), to_x);
+  EXPECT_EQ(quaternion("axis", "\"z\""), Eigen::Vector4d(0, 0, 0, 1));
+  EXPECT_EQ(quaternion("rotation", "[[1, 0, 0], [0, 0, 1], [0, -1, 0]]"), to_y) << "by its rows";
+}
+
+TEST(ConfigurationJson, EitherBodyMayBeTheCylinder) {
+  json line = box_configuration();
+  std::swap(line["a"], line["b"]);
+  std::swap(line["pose_a"], line["pose_b"]);
+  const auto given = configuration_from_json(line);
+  EXPECT_TRUE(given.swapped);
+  EXPECT_EQ(given.configuration.pose_a.position().z(), 1.5);
+}
+
+TEST(ConfigurationJson, AHullIsMadeOfTheVerticesThatAreGiven) {
+  json line = box_configuration();
+  line["b"] = json::parse(R"({"shape":"convex","vertices":
+      [[0,0,0],[1,0,0],[0,1,0],[0,0,"0x1p-1"],[0.1,0.1,0.1],[1,0,0]]})");
+  const auto given = configuration_from_json(line);
+  const json written = to_json(given.configuration);
+  EXPECT_EQ(written["b"].dump(), R"({"shape":"convex","vertices":[[0.0,0.0,0.0],[1.0,0.0,0.0],)"
+                                 R"([0.0,1.0,0.0],[0.0,0.0,0.5]]})")
+      << "without the inner point and the one that is given twice";
+  EXPECT_EQ(to_json(configuration_from_json(written).configuration), written);
+  EXPECT_EQ(std::get<Convex>(given.configuration.b).faces().size(), 4U);
+  EXPECT_EQ(to_hex_json(given.configuration)["b"]["vertices"][3][2], "0x1p-1");
+}
+
+TEST(ConfigurationJson, NamesTheFieldThatIsWrong) {
+  const struct {
+    const char* pointer;
+    const char* value;
+    const char* field;
+  } table[] = {
+      {"/a/radius", "-1", "a.radius"},
+      {"/a/radius", "null", "a.radius"},
+      {"/a/radius", "\"one\"", "a.radius"},
+      {"/a/radius", "\"nan\"", "a.radius"},
+      {"/a/radius", "\"\"", "a.radius"},
+      {"/a/radius", "\"1 \"", "a.radius"},
+      {"/a/radius", "\"0x\"", "a.radius"},
+      {"/a/radius", "\"0x1.8p-1z\"", "a.radius"},
+      {"/a/radius", "\"1\\u00002\"", "a.radius"},
+      {"/a/radius", "1e999", "a.radius"},
+      {"/a/half_length", "0", "a.half_length"},
+      {"/a/length", "1", "a.length"},
+      {"/a", "3", "a"},
+      {"/a/shape", "\"cone\"", "a.shape"},
+      {"/a/shape", "7", "a.shape"},
+      {"/b/half_extents", "[1,2]", "b.half_extents"},
+      {"/b/half_extents/1", "0", "b.half_extents[1]"},
+      {"/b/half_extents/1", "[]", "b.half_extents[1]"},
+      {"/b", R"({"shape":"convex"})", "b.vertices"},
+      {"/b", R"({"shape":"convex","vertices":3})", "b.vertices"},
+      {"/b", R"({"shape":"convex","vertices":[[0,0,0],[1,0,0],[0,1]]})", "b.vertices[2]"},
+      {"/b", R"({"shape":"convex","vertices":[[0,0,0],[1,0,0],[0,1,null]]})", "b.vertices[2][2]"},
+      {"/b", R"({"shape":"convex","vertices":[[0,0,0],[1,0,0]]})", "b.vertices"},
+      {"/b", R"({"shape":"convex","vertices":[[0,0,0],[1,1,1],[2,2,2]]})", "b.vertices"},
+      {"/b", R"({"shape":"convex","vertices":[[0,0,0],[1,0,0],[0,1,0]],"faces":[]})", "b.faces"},
+      {"/pose_a/orientation", "[0,0,0,0]", "pose_a.orientation"},
+      {"/pose_a/orientation", "[1,0,0]", "pose_a.orientation"},
+      {"/pose_a/position/2", "\"inf\"", "pose_a.position[2]"},
+      {"/pose_a/rotation", "[[1,0,0],[0,1,0],[0,0,1]]", "pose_a.rotation"},  // beside another
+      {"/pose_a/turn", "1", "pose_a.turn"},
+      {"/pose_b", R"({"axis":"y","rotation":[[1,0,0],[0,1,0],[0,0,1]]})", "pose_b.axis"},
+      {"/pose_b", R"({"axis":"up"})", "pose_b.axis"},
+      {"/pose_b", R"({"axis":[0,0,0]})", "pose_b.axis"},
+      {"/pose_b", R"({"axis":[0,0,null]})", "pose_b.axis[2]"},
+      {"/pose_b", R"({"rotation":[1,0,0,0]})", "pose_b.rotation"},
+      {"/pose_b", R"({"rotation":[[1,0,0],[0,1],[0,0,1]]})", "pose_b.rotation[1]"},
+      {"/pose_b", R"({"rotation":[[1,0,0],[0,1,0],[0,0,"x"]]})", "pose_b.rotation[2][2]"},
+      {"/pose_b", R"({"rotation":[[1,0,0],[0,1,0],[0,0,2]]})", "pose_b.rotation"},
+      {"/pose_b", "[]", "pose_b"},
+      {"/pose_c", "{}", "pose_c"},
+  };
+  for (const auto& row : table) {
+    SCOPED_TRACE(std::string(row.pointer) + " = " + row.value);
+    json line = box_configuration();
+    line[json::json_pointer(row.pointer)] = "the value";
+    std::string text = line.dump();
+    const std::string placeholder = "\"the value\"";
+    text.replace(text.find(placeholder), placeholder.size(), row.value);
+    try {
+      configuration_from_json(parse_json(text, "the line"));
+      ADD_FAILURE() << "accepted";
+    } catch (const InvalidInput& e) {
+      EXPECT_EQ(e.field(), row.field);
+    }
+  }
+}
+
+TEST(ConfigurationJson, AsksForACylinder) {
+  const json line = json::parse(
+      R"({"a":{"shape":"sphere","radius":1},"b":{"shape":"box","half_extents":[1,1,1]}})");
+  EXPECT_THROW(configuration_from_json(line), InvalidInput);
+  EXPECT_THROW(configuration_from_json(json::parse("{}")), InvalidInput);
+  EXPECT_THROW(configuration_from_json(json::parse("[1]")), InvalidInput);
+}
+
+}  // namespace
+}  // namespace touchstone
