@@ -41,4 +41,5 @@ install(DIRECTORY simulation/scenes/ DESTINATION share/touchstone/scenes
 find_program(DPKG_SHLIBDEPS dpkg-shlibdeps)
 if(TOUCHSTONE_TESTS AND DPKG_SHLIBDEPS)
   add_test(NAME package COMMAND ${CMAKE_CURRENT_LIST_DIR}/package_test.sh ${PROJECT_BINARY_DIR})
+  set_tests_properties(package PROPERTIES COST 100)
 endif()
