@@ -8,6 +8,7 @@
 
 #include "candidates/candidates.hpp"
 #include "reports/make_report.hpp"
+#include "reports/report_json.hpp"
 
 // What the tests of several sources look at.
 
@@ -34,6 +35,10 @@ inline Campaign some_configurations(unsigned workers = 2) {
 inline const Report& report_of_some() {
   static const Report report = make_report(some_configurations(), "x");
   return report;
+}
+
+inline nlohmann::json report_of(const Campaign& campaign) {
+  return to_json(make_report(campaign, "x"));
 }
 
 /// A report but for what is said of times, which differ.
