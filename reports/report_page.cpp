@@ -3,13 +3,16 @@
 #include <cstdlib>
 #include <fmt/format.h>
 #include <map>
+#include <optional>
 #include <string>
 
 #include <nlohmann/json.hpp>
 
+#include "reports/findings.hpp"
 #include "reports/pages/page.hpp"
 #include "reports/replay.hpp"
 #include "reports/report_json.hpp"
+#include "reports/timing.hpp"
 
 namespace touchstone {
 namespace {
@@ -25,7 +28,8 @@ const json& shown_parts() {
     "results": {
       "pair": true, "class": true, "candidate": true, "count": true, "outcomes": true,
       "points": true, "worst_index": true, "severity": {"max": 2}, "depth_error": {"p99": 2},
-      "normal_regret": {"p99": 2}, "coverage": {"mean": 4}, "nanoseconds": {"median": 4, "p95": 4}
+      "normal_regret": {"p99": 2}, "coverage": {"mean": 4}, "nanoseconds": {"median": 4, "p95": 4},
+      "has_slow_tail": true
     },
     "summary": 4, "factors": 4, "contrasts": 4,
     "trends": {"bins": {"median": 2, "max": 2, "*": true}, "*": true},
@@ -81,11 +85,24 @@ json first_worst(const json& worst) {
   return cases;
 }
 
+json findings_json(const Report& report) {
+  json list = json::array();
+  for (const Finding& f : findings(report)) {
+    list.push_back({{"candidate", f.candidate}, {"text", f.text}, {"command", f.command}});
+  }
+  return list;
+}
+
 }  // namespace
 
 std::string report_page(const Report& report) {
   json data = to_json(report);
   data["worst"] = first_worst(data["worst"]);
+  data["findings"] = findings_json(report);
+  for (std::size_t i = 0; i < report.results.size(); ++i) {
+    const std::optional<QueryTime>& time = report.results[i].time;
+    if (time && time->p95 && has_slow_tail(*time)) data["results"][i]["has_slow_tail"] = true;
+  }
   std::map<std::string, std::string> runs;
   for (const CandidateDescription& c : report.candidates) runs[c.name] = c.runs;
   return render_page(Page::report, with_candidates(cut_to(data, shown_parts()), runs));

@@ -152,7 +152,7 @@ class PageTest(unittest.TestCase):
 
     @classmethod
     def run_program(cls, *arguments):
-        subprocess.run([program, *arguments], check=True, capture_output=True)
+        return subprocess.run([program, *arguments], check=True, capture_output=True, text=True).stdout
 
     @classmethod
     def load(cls, page):
@@ -709,8 +709,9 @@ class FirstScreen(PageTest):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
-        cls.run_program("report", "--count", "1", "--class", "general+shallow,general,standing+turned,lying+turned",
-                        "--only", "scores,timing", "--out", cls.folder.name)
+        cls.printed = cls.run_program("report", "--count", "1", "--class",
+                                      "general+shallow,general,standing+turned,lying+turned",
+                                      "--only", "scores,timing", "--out", cls.folder.name)
         cls.page = Path(cls.folder.name) / "report.html"
 
     def test_on_a_desktop_the_matrix_stands_beside_speed_against_accuracy(self):
@@ -719,6 +720,15 @@ class FirstScreen(PageTest):
         self.load(self.page)
         self.assertGreaterEqual(len(self.all("#matrix tbody tr")), 12)  # as many as are asked by default
         self.assert_in_sight("#headline", "#groups", "#matrix", "#speed-chart")
+
+    def test_the_findings_of_the_terminal_stand_below_with_their_commands(self):
+        self.load(self.page)
+        printed = " ".join(self.printed.split())
+        findings = self.all("#findings li")
+        self.assertEqual(len(findings), printed.split("Findings ")[1].count("./touchstone replay "))
+        for finding in findings:
+            text, command = finding.text.splitlines()[:2]
+            self.assertIn(f"{text} {command} ", printed)
 
     def test_on_a_phone_the_matrix_is_seen(self):
         self.hold_a_phone()

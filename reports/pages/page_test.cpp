@@ -4,14 +4,17 @@
 #include <gtest/gtest.h>
 #include <set>
 #include <utility>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
 #include "candidates/npm_engines.hpp"
 #include "properties/files/configuration_json.hpp"
+#include "reports/findings.hpp"
 #include "reports/pages/page_data.hpp"
 #include "reports/replay.hpp"
 #include "reports/report_json.hpp"
+#include "reports/small_report_test.hpp"
 
 namespace touchstone {
 namespace {
@@ -28,9 +31,34 @@ TEST(ReportPage, CarriesTheReport) {
   json data = data_of(report_page(report)), expected = to_json(report);
   EXPECT_EQ(data["marks"], json({{"ode", {2, 0}}}));
   EXPECT_EQ(data["program"], "./touchstone");
-  data.erase("program");
-  data.erase("marks");
+  EXPECT_EQ(data["findings"], json::array());
+  for (const char* const of_the_page_alone : {"program", "marks", "findings"}) {
+    data.erase(of_the_page_alone);
+  }
   EXPECT_EQ(data, expected);
+}
+
+TEST(ReportPage, HasTheFindingsOfTheTerminal) {
+  const json said = data_of(report_page(report_of_some()))["findings"];
+  const std::vector<Finding> expected = findings(report_of_some());
+  ASSERT_GE(expected.size(), 2u);
+  ASSERT_EQ(said.size(), expected.size());
+  for (std::size_t i = 0; i < said.size(); ++i) {
+    EXPECT_EQ(said[i]["candidate"], expected[i].candidate);
+    EXPECT_EQ(said[i]["text"], expected[i].text);
+    EXPECT_EQ(said[i]["command"], expected[i].command);
+  }
+}
+
+TEST(ReportPage, SaysOfWhichClassesAFewQueriesTakeMuchLonger) {
+  Report report;
+  for (const double p95 : {399.0, 401.0}) {
+    ResultRow& row = report.results.emplace_back();
+    row.time = QueryTime{.nanoseconds = {100, 99, 101}, .p95 = p95};
+  }
+  const json rows = data_of(report_page(report))["results"];
+  EXPECT_FALSE(rows[0].contains("has_slow_tail"));
+  EXPECT_EQ(rows[1]["has_slow_tail"], true);
 }
 
 TEST(ReportPage, ShowsWhatWouldTurnTheDirectionOfALineAsDigits) {

@@ -143,6 +143,8 @@ const alwaysRight = routines.filter(name => !report.results.some(r => r.candidat
 byId('extent').textContent = `${whole(report.configurations)} configurations, each answer held against a truth certified to 1e-30 of the larger size; of ` +
     `${routines.length} ${routines.length === 1 ? 'candidate' : 'candidates'} ${alwaysRight} ${alwaysRight === 1 ? 'agrees' : 'agree'} in every pose class of all groups. ` +
     `Touchstone ${report.version}, seed ${report.seed}, ${report.machine.cpu}.`;
+byId('findings').hidden = report.findings.length === 0;
+byId('findings').querySelector('ul').append(...report.findings.map(f => element('li', {}, sign(f.candidate), f.text, command(f.command))));
 offerGroups([...new Set(report.summary.map(r => r.class))]);
 const manyPairs = offerPairs(pairs);
 offer('candidate', 'Candidate', candidates.map(c => [c, c]), candidates.find(c => !own(c)) ?? candidates[0]);

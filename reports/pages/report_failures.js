@@ -34,9 +34,9 @@ function link(text, act) {
   button.addEventListener('click', act);
   return button;
 }
-// The pose classes in which 5% of the queries take more than four medians (as in timing.hpp).
+// The pose classes in which 5% of the queries take more than four medians.
 function slowTails(rows) {
-  const timed = rows.filter(r => tail(r) !== null), slow = timed.filter(r => tail(r) > 4 * time(r)).sort((a, b) => tail(b) - tail(a)), [most] = slow;
+  const timed = rows.filter(r => tail(r) !== null), slow = timed.filter(r => r.has_slow_tail).sort((a, b) => tail(b) - tail(a)), [most] = slow;
   return most ? ` Slow tails: in ${slow.length} of ${timed.length} classes 5% of the queries take more than four medians, most in ` +
       `${most.pair}/${most.class} (median ${duration(time(most))}, p95 ${duration(tail(most))}).` : '';
 }
