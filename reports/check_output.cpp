@@ -9,7 +9,6 @@
 #include <nlohmann/json.hpp>
 
 #include "oracle/truth.hpp"
-#include "properties/files/configuration_json.hpp"
 #include "properties/files/given_text.hpp"
 #include "properties/laws/failure_file.hpp"
 #include "reports/replay.hpp"
@@ -40,15 +39,15 @@ std::string breach_text(const Failure& f, const Terminal& terminal) {
          terminal.below(find_law(f.law).statement);
 }
 
-/// The configuration once, in the command that shows it again: its decimals are the doubles.
+/// The configuration once, in the command that shows it again.
 std::string case_text(const Failure& f, const Terminal& terminal) {
   const oracle::Enclosure truth = oracle::truth(f.configuration).signed_distance;
   const auto group = group_met(f);
   return terminal.below(fmt::format("first met{} as {}; simplified:",
                                     group ? fmt::format(" in {} poses", group_name(*group)) : "",
                                     f.identity)) +
-         fmt::format("  echo '{}' | {} replay - --candidates {} --threshold {}\n",
-                     to_json(f.configuration).dump(), program_name({f.candidate}), f.candidate,
+         fmt::format("  {} --candidates {} --threshold {}\n",
+                     piped_to_replay(f.configuration, {f.candidate}), f.candidate,
                      f.bar.threshold) +
          terminal.below(fmt::format("truth: signed distance {} m", nearest_to_middle(truth))) +
          terminal.below("answer: " + answer_words(f.answer));

@@ -166,10 +166,15 @@ std::string replay_command(const Subject& subject, const std::vector<std::string
          (subject.id.empty() ? "" : " --id " + shell_quoted(subject.id));
 }
 
+std::string piped_to_replay(const Configuration& configuration,
+                            const std::vector<std::string>& candidates) {
+  return "echo '" + to_hex_json(configuration).dump() + "' | " + program_name(candidates) +
+         " replay -";
+}
+
 std::string replay_command(const Configuration& configuration,
                            const std::vector<std::string>& candidates) {
-  return "echo '" + to_json(configuration).dump() + "' | " + program_name(candidates) +
-         " replay -" + choice_of(candidates);
+  return piped_to_replay(configuration, candidates) + choice_of(candidates);
 }
 
 }  // namespace touchstone

@@ -79,7 +79,11 @@ std::string program_name(const std::vector<std::string>& candidates);
 std::string replay_command(const std::string& name, const std::vector<std::string>& candidates);
 /// Likewise for one of a file, by its id there if it has one.
 std::string replay_command(const Subject& subject, const std::vector<std::string>& candidates);
-/// The command for a configuration that has no identity: "echo '{…}' | ./touchstone replay -".
+/// "echo '{…}' | ./touchstone replay -", which knows these candidates: for a configuration without
+/// an identity, every number as a hexadecimal float.
+std::string piped_to_replay(const Configuration& configuration,
+                            const std::vector<std::string>& candidates);
+/// Likewise, and these candidates have to answer.
 std::string replay_command(const Configuration& configuration,
                            const std::vector<std::string>& candidates);
 

@@ -5,6 +5,9 @@
 #include <string>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
+#include "properties/files/configuration_json.hpp"
 #include "reports/small_report_test.hpp"
 
 namespace touchstone {
@@ -39,6 +42,12 @@ TEST(Replay, InShortIsATableWithTheTruth) {
 }
 
 // solve
+
+TEST(Replay, CommandHasTheNumbersOfAConfigurationWithoutIdentityInHexadecimal) {
+  const Configuration c = make_configuration({Pair::sphere, "rim", 1, 0});
+  EXPECT_EQ(replay_command(c, {"bullet"}),
+            "echo '" + to_hex_json(c).dump() + "' | ./touchstone replay -");
+}
 
 }  // namespace
 }  // namespace touchstone

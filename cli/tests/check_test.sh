@@ -41,6 +41,13 @@ expect 1 'truth: signed distance -2 m' check --candidate bullet --pair cylinder-
   --count 1 --law agreement
 
 expect 1 'broken by' "${edge[@]}" --save "$folder/corpus" --junit "$folder/junit.xml"
+# What is printed of a failure has the numbers of its file, to the last bit.
+python3 - "$folder/corpus" "$printed" <<'END' || failed "$ran: prints another configuration than it saves"
+import glob, json, re, sys
+saved = [json.load(open(file))["configuration"] for file in glob.glob(sys.argv[1] + "/*.json")]
+assert json.loads(re.search(r"echo '(\{.*\})' \|", sys.argv[2])[1]) in saved
+assert saved[0]["a"]["radius"].startswith("0x")
+END
 expect 0 'as expected' check --corpus "$folder/corpus"
 expect 0 'bullet: .*missed\|bullet: contact, shallow' \
   replay "$(ls "$folder"/corpus/*.json | head -n 1)" --candidates bullet

@@ -92,7 +92,6 @@ json to_json(const Failure& f) {
                  {"threshold", f.bar.threshold},
                  {"found", f.identity},
                  {"configuration", to_hex_json(f.configuration)},
-                 {"decimal", to_json(f.configuration)},
                  {"answer", f.answer ? to_json(*f.answer, f.score) : json(nullptr)}};
   if (!f.features.empty()) result["features"] = f.features;
   return result;
