@@ -460,6 +460,12 @@ Comparison compare(const Report& before, const Report& after, const CompareLimit
                        "must be made again with this version of touchstone, for it knows no groups "
                        "and has another seed or count");
   }
+  const auto is_scored = [](const ResultRow& row) { return row.statistics.supported() > 0; };
+  if (result.compared == 0 && std::ranges::none_of(before.results, is_scored) &&
+      std::ranges::none_of(after.results, is_scored)) {
+    throw InvalidInput("NEW", "without a scored answer, as OLD is",
+                       "must have a candidate with a routine for a pair that was asked");
+  }
   if (result.compared == 0) {
     throw InvalidInput("NEW", "of other things",
                        basis.same_configurations

@@ -479,6 +479,16 @@ TEST(Compare, RefusesReportsWithNothingInCommon) {
   EXPECT_THROW(compared_with(now), InvalidInput);
 }
 
+TEST(Compare, SaysThatNeitherReportHasAnAnswer) {
+  json report = small_report();
+  for (const char* list : {"results", "summary"}) {
+    for (json& r : report[list]) r["outcomes"] = {{"unsupported", 100}};
+  }
+  EXPECT_THAT([&] { compare(report, report, {}); },
+              ThrowsMessage<InvalidInput>(HasSubstr("without a scored answer, as OLD is")));
+  EXPECT_TRUE(compare(small_report(), report, {}).has_regressed());
+}
+
 TEST(Compare, TextFitsIntoEightyColumns) {
   json now = small_report();
   now["seed"] = 2;

@@ -234,6 +234,9 @@ std::string stopped_text(const Report& report, const Terminal& terminal) {
 }  // namespace
 
 std::string terminal_details(const Report& report, const Terminal& terminal) {
+  if (const auto nothing = nothing_scored_text(report, terminal); !nothing.empty()) {
+    return partial_text(report, terminal) + nothing;
+  }
   const std::vector<TableMeasure> measures = measures_of(report);
   const TextTable table = table_of(report, measures, terminal);
   std::string text = partial_text(report, terminal) + table.headings() +

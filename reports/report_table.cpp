@@ -131,6 +131,9 @@ std::string findings_text(const Report& report, const Terminal& terminal) {
 std::string terminal_table(const Report& report, const Terminal& terminal) {
   const std::vector<std::string> groups = groups_of(report);
   if (groups.empty()) return partial_text(report, terminal);
+  if (const auto nothing = nothing_scored_text(report, terminal); !nothing.empty()) {
+    return partial_text(report, terminal) + nothing;
+  }
   std::vector<Standing> standings;
   for (const CandidateDescription& c : report.candidates) {
     standings.push_back(standing_of(report, groups, c.name));

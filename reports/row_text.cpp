@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
+#include <vector>
 
 #include "reports/covered_pairs.hpp"
 #include "reports/sampler.hpp"
@@ -74,6 +75,18 @@ std::string partial_text(const Report& report, const Terminal& terminal) {
              "PARTIAL: interrupted when {} of {} pose classes were scored and {} timed.",
              report.completed.classes, report.planned.classes, report.timed_classes)) +
          '\n';
+}
+
+std::string nothing_scored_text(const Report& report, const Terminal& terminal) {
+  const auto is_scored = [](const ResultRow& row) { return row.statistics.supported() > 0; };
+  if (report.summary.empty() || std::ranges::any_of(report.summary, is_scored)) return "";
+  std::vector<std::string> names;
+  for (const CandidateDescription& c : report.candidates) names.push_back(c.name);
+  return terminal.folded(fmt::format(
+      "Nothing was scored: {} \"unsupported\" to every configuration, as a routine that "
+      "is not made for such a pair of shapes does.",
+      names.size() == 1 ? names.front() + " answers"
+                        : fmt::format("{} answer", fmt::join(names, ", "))));
 }
 
 namespace {

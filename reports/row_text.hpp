@@ -35,6 +35,9 @@ std::string marked_name(const Report& report, const ResultRow& row);
 /// Says of a report that was interrupted how far it came.
 std::string partial_text(const Report& report, const Terminal& terminal);
 
+/// Says of a report without a row that counts why it has none; empty of others.
+std::string nothing_scored_text(const Report& report, const Terminal& terminal);
+
 /// What the marks at names and shares mean, where a report has them.
 std::string marks_text(const Report& report, const Terminal& terminal);
 

@@ -230,6 +230,20 @@ TEST(ReportTable, SaysOfACandidateWithoutARoutineNothing) {
   EXPECT_THAT(lines_of(terminal_table(report))[2], testing::MatchesRegex("other( +-){9}"));
 }
 
+TEST(ReportTable, SaysWhyNothingWasScored) {
+  Report report = report_of({{"mine", 50}});
+  for (ResultRow& row : report.summary) {
+    row.statistics.outcomes = {};
+    row.statistics.outcomes[static_cast<std::size_t>(Outcome::unsupported)] = row.statistics.count;
+  }
+  for (const auto text : {terminal_table, terminal_details}) {
+    EXPECT_THAT(text(report, {}),
+                testing::StartsWith("Nothing was scored: mine answers \"unsupported\" to every "));
+  }
+  report.candidates.push_back({"yours", "", "", "", ""});
+  EXPECT_THAT(terminal_table(report), HasSubstr(": mine, yours answer \"unsupported\""));
+}
+
 TEST(ReportTable, SaysOfACandidateThatNeverAnswersThatItIsNeverRight) {
   Report report = report_of({{"silent", 0}});
   for (ResultRow& row : report.summary) {

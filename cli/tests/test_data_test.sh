@@ -20,6 +20,9 @@ grep -q '"configurations": 1,' "$folder/given/report.json" ||
 sed -i 2d "$folder/given.jsonl"
 expect 0 '^candidate degen' score "$folder/given.jsonl" --name mine --out "$folder/given"
 expect 2 '^error: --name is missing' score "$folder/given.jsonl" --out "$folder/given"
+echo '{"id":"cylinder-plane/lying/1/0","status":"unsupported"}' >"$folder/unsupported.jsonl"
+expect 0 '^Nothing was scored: mine answers "unsupported" to every configuration' \
+  score "$folder/unsupported.jsonl" --name mine --out "$folder/given"
 # Ids are as `solve` takes them; what cannot be used is told with its file.
 echo '{"id":0,"a":{"shape":"cylinder","radius":1,"half_length":1},"b":{"shape":"sphere","radius":1}}' >"$folder/poses.jsonl"
 echo '{"id":0,"status":"none"}' >"$folder/own.jsonl"

@@ -71,7 +71,7 @@ function verdict() {
   const told = (r, share = `, ${agreement(r)}`) => [named(r.candidate, own(r.candidate)), share + (time(r) === null ? '' : ` in ${duration(time(r))}`) +
       (elsewhere(r) && ` (${elsewhere(r)})`)];
   const where = `${chosen.group} poses` + (chosen.pair === 'all' ? '' : ` against a ${otherShape(chosen.pair)}`);
-  byId('headline').replaceChildren(...(best.length === 0 ? [`No candidate has a routine for ${pairWords(chosen.pair)}.`]
+  byId('headline').replaceChildren(...(best.length === 0 ? [`No candidate has a routine for ${chosen.pair === 'all' ? 'any of the pairs' : dashed(chosen.pair)}.`]
       : [perfect.length ? `Right in all ${where}: ` : `Most often right in ${where}: `,
          ...best.flatMap((r, i) => [i ? '; ' : '', ...told(r, perfect.length ? '' : undefined)]),
          perfect.length > 3 ? `; and ${perfect.length - 3} more. ` : '. ',

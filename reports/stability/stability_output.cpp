@@ -64,6 +64,14 @@ std::size_t name_width(const Names& candidates) {
   return width;
 }
 
+/// In place of a table without rows. `are_of_pairs`: is there anything of the pairs that were
+/// asked?
+std::string nothing_measured(const char* what, bool are_of_pairs, const Terminal& terminal) {
+  return terminal.folded(fmt::format("{}: nothing was measured, for {}.", what,
+                                     are_of_pairs ? "no candidate has a routine for such a pair"
+                                                  : "there is none of such a pair"));
+}
+
 std::string amplification_table(const Amplification& a, const Names& candidates,
                                 const Terminal& terminal) {
   std::map<std::string, std::map<std::string, PairRow>> rows;
@@ -72,6 +80,7 @@ std::string amplification_table(const Amplification& a, const Names& candidates,
     if (std::find(pairs.begin(), pairs.end(), row.pair) == pairs.end()) pairs.push_back(row.pair);
     rows[row.pair][row.candidate].add(row, static_cast<int>(a.count));
   }
+  if (pairs.empty()) return nothing_measured("Small steps", true, terminal);
   const TextTable table("small steps", name_width(candidates),
                         {{"depth x", 8, 0},
                          {"jump", 8, 1},
@@ -138,6 +147,7 @@ std::map<std::string, PixelCounts> count_pixels(const FailureMaps& maps) {
 
 std::string maps_table(const FailureMaps& maps, const Names& candidates, const Terminal& terminal) {
   const auto counts = count_pixels(maps);
+  if (counts.empty()) return nothing_measured("Maps", !maps.poses.empty(), terminal);
   std::vector<TextTable::Column> columns;
   for (const Decade& zoom : maps.zooms) {
     columns.push_back({zoom.name(), 7, static_cast<int>(columns.size())});
@@ -176,6 +186,10 @@ struct LargestPeak {
 
 std::string sequences_table(const Sequences& sequences, const Names& candidates,
                             const Terminal& terminal) {
+  const auto has_rows = [](const Sequences::Course& course) { return !course.results.empty(); };
+  if (std::ranges::none_of(sequences.motions, has_rows)) {
+    return nothing_measured("Motions", !sequences.motions.empty(), terminal);
+  }
   std::size_t motion_width = 0;
   for (const Sequences::Course& course : sequences.motions) {
     motion_width = std::max(motion_width, course.motion.size());
