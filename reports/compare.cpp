@@ -12,6 +12,7 @@
 
 #include "properties/identity.hpp"
 #include "reference/invalid_input.hpp"
+#include "reports/factors.hpp"
 
 namespace touchstone {
 namespace {
@@ -26,9 +27,11 @@ struct Basis {
   bool same_configurations = true;  ///< seed, and count of each class that both have
   bool same_bar = true;             ///< tolerance and threshold
   bool same_judge = true;           ///< outcomes and regrets mean the same
-  NameSet others;                   ///< classes that have other configurations in each report
-  Groups split;                     ///< those with such a class, or one that only one report has
-  bool times = true;                ///< both have the baseline that times are related to
+  /// Of other configurations, what a change must be less likely than if nothing has changed.
+  double max_chance = 0;
+  NameSet others;     ///< classes that have other configurations in each report
+  Groups split;       ///< those with such a class, or one that only one report has
+  bool times = true;  ///< both have the baseline that times are related to
   std::vector<std::string> remarks;
 };
 
@@ -204,7 +207,8 @@ Basis basis_of(const Report& before, const Report& after, const std::string& bas
     }
     basis.remarks.push_back(
         fmt::format("The configurations differ ({}): only groups of classes as a whole are "
-                    "compared, by median and 99th percentile, and agreement beyond chance.",
+                    "compared, and only where agreement, depth error or normal regret differs "
+                    "beyond chance.",
                     why));
     if (!basis.split.empty()) {
       basis.remarks.push_back("Groups with a class that only one report has are not compared.");
@@ -215,6 +219,13 @@ Basis basis_of(const Report& before, const Report& after, const std::string& bas
     basis.remarks.push_back(fmt::format(
         "The {} report is of schema 1, which knows no groups: only classes are compared.", which));
   }
+  // Of a thousand comparisons of what has not changed, one finds a change: so much is left for each
+  // row, measure (agreement, median and 99th percentile of depth, that of regret) and direction.
+  constexpr double of_comparison = 1e-3, tests_of_row = 4 * 2;
+  const std::size_t rows =
+      after.summary.size() + (basis.same_configurations ? after.results.size() : 0);
+  basis.max_chance =
+      of_comparison / (tests_of_row * static_cast<double>(std::max<std::size_t>(rows, 1)));
   basis.same_bar = before.tolerance == after.tolerance && before.threshold == after.threshold;
   if (!basis.same_bar) {
     basis.remarks.push_back(fmt::format(
@@ -262,7 +273,7 @@ void remark_stopped(Basis& basis, const Report& before, const Report& after) {
   for (const std::string& name : names) {
     basis.remarks.push_back(fmt::format(
         "{} times out so often that it was not asked all of some classes, which counts against it: "
-        "its agreement there is compared beyond chance, its errors by median and 99th percentile.",
+        "its agreement and errors there are compared beyond chance.",
         name));
   }
 }
@@ -291,10 +302,24 @@ class Changes {
   std::vector<Change>& list_;
 };
 
-/// Three standard deviations of the difference of two shares, of n and m configurations.
-double chance(double p, double n, double q, double m) {
-  const double mean = (p * n + q * m) / (n + m);
-  return 3 * std::sqrt(mean * (1 - mean) * (1 / n + 1 / m));
+/// Are failures so much more frequent in the second sample that chance does not explain it?
+bool rises_beyond_chance(const FailureRate& from, const FailureRate& to, double max_chance) {
+  return from.share() < to.share() && chance(from, to) < max_chance;
+}
+
+/// A quantile of few errors, or near which there are few, is another one in each sample. So it is
+/// the share of errors above the smaller one that must have changed.
+bool differ_beyond_chance(const std::optional<LogHistogram>& before,
+                          const std::optional<LogHistogram>& after, double quantile_before,
+                          double quantile_after, double max_chance) {
+  if (!before || !after) return false;
+  const double smaller = std::max(std::min(quantile_before, quantile_after), negligible_error);
+  const auto above = [&](const LogHistogram& h) {
+    return FailureRate{h.count(), h.above(smaller)};
+  };
+  return quantile_before < quantile_after
+             ? rises_beyond_chance(above(*before), above(*after), max_chance)
+             : rises_beyond_chance(above(*after), above(*before), max_chance);
 }
 
 /// On how many of those supported the answer is right in depth, whatever a judge finds of its
@@ -310,14 +335,17 @@ std::uint64_t right_in_depth(const Statistics& s) {
 
 void compare_agreement(Changes& changes, const Statistics& before, const Statistics& after,
                        bool same_configurations, const Basis& basis, const CompareLimits& limits) {
-  const auto n = static_cast<double>(before.supported()),
-             m = static_cast<double>(after.supported());
-  const auto share = [&](const Statistics& s) {
+  const auto failing = [&](const Statistics& s) {
     const std::uint64_t right = basis.same_judge ? s.agreeing() : right_in_depth(s);
-    return static_cast<double>(right) / static_cast<double>(s.supported());
+    return FailureRate{s.supported(), s.supported() - right};
   };
-  const double p = share(before), q = share(after);
-  if (p == q || (!same_configurations && std::abs(p - q) <= chance(p, n, q, m))) return;
+  const FailureRate old = failing(before), now = failing(after);
+  if (old.share() == now.share()) return;
+  if (!same_configurations && !rises_beyond_chance(old, now, basis.max_chance) &&
+      !rises_beyond_chance(now, old, basis.max_chance)) {
+    return;
+  }
+  const double p = 1 - old.share(), q = 1 - now.share();
   changes.add(basis.same_judge ? "agreement" : "agreement in depth", p, q,
               p > 0 ? std::optional(q / p) : std::nullopt, q < p ? Verdict::worse : Verdict::better,
               q > p || q < limits.agreement * p);
@@ -329,27 +357,36 @@ void compare_errors(Changes& changes, const Statistics& before, const Statistics
     std::optional<Quantiles> Statistics::*member;
     double Quantiles::*which;
     const char* measure;
-    bool of_any_sample;  ///< does not depend on single configurations
+    /// What tells a change from chance; null: compared on the same configurations alone.
+    std::optional<LogHistogram> Statistics::*histogram = nullptr;
   } measures[] = {
-      {&Statistics::depth_error, &Quantiles::median, "depth error, median", true},
-      {&Statistics::depth_error, &Quantiles::p99, "depth error, p99", true},
-      {&Statistics::depth_error, &Quantiles::max, "depth error, max", false},
-      {&Statistics::normal_regret, &Quantiles::p99, "normal regret, p99", true},
-      {&Statistics::normal_regret, &Quantiles::max, "normal regret, max", false},
-      {&Statistics::point_error, &Quantiles::p99, "point error, p99", true},
-      {&Statistics::point_error, &Quantiles::max, "point error, max", false},
-      {&Statistics::deepest_error, &Quantiles::p99, "deepest point's error, p99", true},
-      {&Statistics::deepest_error, &Quantiles::max, "deepest point's error, max", false}};
+      {&Statistics::depth_error, &Quantiles::median, "depth error, median",
+       &Statistics::depth_histogram},
+      {&Statistics::depth_error, &Quantiles::p99, "depth error, p99", &Statistics::depth_histogram},
+      {&Statistics::depth_error, &Quantiles::max, "depth error, max"},
+      {&Statistics::normal_regret, &Quantiles::p99, "normal regret, p99",
+       &Statistics::regret_histogram},
+      {&Statistics::normal_regret, &Quantiles::max, "normal regret, max"},
+      {&Statistics::point_error, &Quantiles::p99, "point error, p99"},
+      {&Statistics::point_error, &Quantiles::max, "point error, max"},
+      {&Statistics::deepest_error, &Quantiles::p99, "deepest point's error, p99"},
+      {&Statistics::deepest_error, &Quantiles::max, "deepest point's error, max"}};
   for (const auto& m : measures) {
     const auto &old = before.*m.member, &now = after.*m.member;
-    if (!old || !now || !(m.of_any_sample || same_configurations)) continue;
+    if (!old || !now) continue;
     const bool is_judged_anew =
         m.member == &Statistics::normal_regret || m.member == &Statistics::point_error;
     if (is_judged_anew && !basis.same_judge) continue;
-    changes.smaller_is_better(m.measure, (*old).*m.which, (*now).*m.which, negligible_error,
-                              limits.error_factor);
+    const double was = (*old).*m.which, is = (*now).*m.which;
+    if (!same_configurations &&
+        !(m.histogram && differ_beyond_chance(before.*m.histogram, after.*m.histogram, was, is,
+                                              basis.max_chance))) {
+      continue;
+    }
+    changes.smaller_is_better(m.measure, was, is, negligible_error, limits.error_factor);
   }
-  if (!basis.same_bar || !basis.same_judge || !before.coverage || !after.coverage) return;
+  if (!same_configurations || !basis.same_bar || !basis.same_judge) return;
+  if (!before.coverage || !after.coverage) return;
   constexpr double min_share = 0.01;
   changes.smaller_is_better("patch not covered, mean", 1 - before.coverage->mean,
                             1 - after.coverage->mean, min_share, limits.error_factor);

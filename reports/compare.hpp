@@ -97,9 +97,9 @@ void members(auto& a, Comparison& c) {
 
 /// What is better, worse, faster or slower in `after` than in `before` (docs/report.md). Reports
 /// on the same configurations are compared class by class; on others by pair and group, and only
-/// beyond chance. Times are compared as multiples of the baseline's; they have changed when even
-/// the nearest ends of their spreads are farther apart than the limit. Throws InvalidInput when
-/// there is nothing in common.
+/// beyond chance: of a thousand comparisons of what has not changed one finds a change. Times are
+/// compared as multiples of the baseline's; they have changed when even the nearest ends of their
+/// spreads are farther apart than the limit. Throws InvalidInput when there is nothing in common.
 Comparison compare(const Report& before, const Report& after, const CompareLimits& limits);
 
 /// For a terminal of 80 columns.

@@ -339,6 +339,43 @@ TEST(Compare, OfOtherConfigurationsTakesPairsAsAWholeBeyondChance) {
   EXPECT_THAT(changes_to(now), ElementsAre("worse everyday mine agreement"));
 }
 
+/// The small report with another seed, in which so many contacts of a candidate have an error of
+/// about 1e-7, and so many of 1e-3.
+json report_of_errors(int seed, int small, int large) {
+  const auto at_rank = [&](int rank) { return rank <= small ? 1e-7 : 1e-3; };
+  const int n = small + large;
+  json report = small_report();
+  report["seed"] = seed;
+  for (json& each : report["summary"]) {
+    each["count"] = n;
+    each["outcomes"] = {{"agree", n}};
+  }
+  json& row = report["summary"][1];
+  json counts = {small, 0, 0, 0, 0, 0, 0, 0, large};
+  if (large == 0) counts = {small};
+  row["depth_error"] = {{"median", at_rank((n + 1) / 2)},
+                        {"p99", at_rank((99 * n + 99) / 100)},
+                        {"max", at_rank(n)},
+                        {"histogram", {{"zero", 0}, {"first", -14}, {"counts", counts}}}};
+  return report;
+}
+
+TEST(Compare, APercentileOfOtherConfigurationsHasChangedWhereMoreErrorsAreLarge) {
+  const auto changed = [](const json& before, const json& after) {
+    return changes(compare(before, after, {}));
+  };
+  // Of three configurations it is the largest error; of 500 it is of the one kind or the other.
+  EXPECT_THAT(changed(report_of_errors(1, 3, 0), report_of_errors(2, 2, 1)), testing::IsEmpty());
+  EXPECT_THAT(changed(report_of_errors(1, 496, 4), report_of_errors(2, 492, 8)),
+              testing::IsEmpty());
+  EXPECT_THAT(changed(report_of_errors(1, 251, 249), report_of_errors(2, 249, 251)),
+              testing::IsEmpty());
+  EXPECT_THAT(changed(report_of_errors(1, 496, 4), report_of_errors(2, 460, 40)),
+              ElementsAre("worse everyday mine depth error, p99"));
+  EXPECT_THAT(changed(report_of_errors(1, 460, 40), report_of_errors(2, 496, 4)),
+              ElementsAre("better everyday mine depth error, p99"));
+}
+
 TEST(Compare, OfOtherConfigurationsTakesEveryGroupOfWhichBothReportsHaveAllClasses) {
   json now = small_report();
   now["seed"] = 2;
@@ -528,13 +565,14 @@ TEST(Compare, WritesEveryChangeAsJson) {
 }
 
 /// The plug-in of testing/sabotage.cpp, worse than it is by this number.
-json report_of_declining(const char* by) {
+json report_of_declining(const char* by, std::uint64_t seed = 1) {
   add_test_plugin("touchstone-sabotage.so");
   setenv("TOUCHSTONE_DECLINE", by, 1);
   Campaign c{.pairs = {Pair::plane},
              .classes = {"lying", "standing", "general-shallow"},
              .candidates = find_candidates({"bullet", "declining"}),
-             .count = 20};
+             .count = 20,
+             .seed = seed};
   json report = to_json(make_report(c, "x"));
   unsetenv("TOUCHSTONE_DECLINE");
   return report;
@@ -544,6 +582,32 @@ TEST(Compare, TwoRunsOfTheSameCodeShowNoChange) {
   const Comparison c = compare(report_of_declining("1"), report_of_declining("1"), {});
   EXPECT_TRUE(c.changes.empty()) << comparison_text(c);
   EXPECT_TRUE(c.remarks.empty()) << remarks(c);
+}
+
+/// Of engines whose errors are of all sizes, a report of few configurations.
+json report_of_seed(std::uint64_t seed) {
+  Campaign c{.pairs = {Pair::plane, Pair::box},
+             .classes = {"lying", "general-shallow", "touching", "rim-face"},
+             .candidates = find_candidates({"reference", "bullet", "ode"}),
+             .count = 3,
+             .is_timed = false,
+             .seed = seed};
+  return to_json(make_report(c, "x"));
+}
+
+TEST(Compare, TenPairsOfSeedsOfTheSameCodeShowNoChange) {
+  json before = report_of_seed(1);
+  for (std::uint64_t seed = 2; seed <= 11; ++seed) {
+    json after = report_of_seed(seed);
+    const Comparison c = compare(before, after, {});
+    EXPECT_TRUE(c.changes.empty()) << comparison_text(c);
+    before = std::move(after);
+  }
+}
+
+TEST(Compare, OfOtherConfigurationsFindsADegradedPluginByItsGroup) {
+  EXPECT_THAT(changes(compare(report_of_declining("1"), report_of_declining("10000", 2), {})),
+              testing::Contains("worse degenerate declining depth error, p99"));
 }
 
 TEST(Compare, FindsADegradedPluginByPairClassAndFactor) {

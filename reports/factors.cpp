@@ -256,11 +256,16 @@ double chance(const FailureRate& without, const FailureRate& with) {
   };
   const std::uint64_t total = without.count + with.count, failed = without.failed + with.failed;
   const std::uint64_t min_failed = failed > without.count ? failed - without.count : 0;
+  const double mean =
+      static_cast<double>(with.count) * static_cast<double>(failed) / static_cast<double>(total);
   double sum = 0;
   for (std::uint64_t k = std::max(with.failed, min_failed); k <= std::min(with.count, failed);
        ++k) {
-    sum += std::exp(log_choose(with.count, k) + log_choose(without.count, failed - k) -
-                    log_choose(total, failed));
+    const double term = std::exp(log_choose(with.count, k) + log_choose(without.count, failed - k) -
+                                 log_choose(total, failed));
+    sum += term;
+    // Above the mean terms fall: of a million configurations few count.
+    if (static_cast<double>(k) > mean && term <= 1e-17 * sum) break;
   }
   return std::min(1.0, sum);
 }

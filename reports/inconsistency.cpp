@@ -17,6 +17,17 @@ using CountByClass = std::map<std::pair<std::string, std::string>, std::uint64_t
 
 Key key_of(const ResultRow& row) { return {row.pair, row.pose_class, row.candidate}; }
 
+/// Has it no more values than this? The sum of its counts may overflow.
+bool has_at_most(const LogHistogram& histogram, std::uint64_t most) {
+  std::vector<std::uint64_t> counts = histogram.counts;
+  counts.push_back(histogram.zero);
+  return std::ranges::all_of(counts, [&](std::uint64_t n) {
+    const bool fits = n <= most;
+    most -= std::min(n, most);
+    return fits;
+  });
+}
+
 /// Finds a contradiction between the rows of one list; adds to `counts` how many configurations
 /// each class has.
 std::optional<InvalidInput> between_rows(const Report& report, const std::vector<ResultRow>& rows,
@@ -42,6 +53,13 @@ std::optional<InvalidInput> between_rows(const Report& report, const std::vector
       return InvalidInput{
           place + ".count", std::to_string(count),
           fmt::format("must be {}, as in the first row of {}", of_others->second, of_class)};
+    }
+    for (const auto& [name, histogram] :
+         {std::pair("depth_error", &row.statistics.depth_histogram),
+          std::pair("normal_regret", &row.statistics.regret_histogram)}) {
+      if (!*histogram || has_at_most(**histogram, count)) continue;
+      return InvalidInput{fmt::format("{}.{}.histogram", place, name), "of more values",
+                          fmt::format("must be of at most {}, the count", count)};
     }
   }
   return std::nullopt;

@@ -55,6 +55,21 @@ TEST_F(ReportFile, NoNameMakesALineOfItsOwnOrTurnsAround) {
   EXPECT_EQ(read_report(file).candidates[0].name, "ode reference  100.0    ");
 }
 
+TEST_F(ReportFile, NoHistogramHasMoreValuesThanThereAre) {
+  json report = good();
+  json& histogram = report["results"][1]["depth_error"]["histogram"];
+  histogram["zero"] = 0;
+  histogram["counts"] = {1, 1};
+  write(report.dump());
+  EXPECT_EQ(read_report(file).results[1].statistics.depth_histogram->count(), 2u);
+  histogram["counts"] = {1, 2};
+  write(report.dump());
+  expect_refusal("results[1].depth_error.histogram", "must be of at most 2, the count");
+  histogram["counts"] = {1, 0xffffffffffffffffU};
+  write(report.dump());
+  expect_refusal("results[1].depth_error.histogram", "must be of at most 2, the count");
+}
+
 TEST_F(ReportFile, OfBeforeSamplesWentIsReadWithoutWhatTheyStoodFor) {
   json report = good();
   json& row = report["results"][0];

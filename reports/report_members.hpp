@@ -107,7 +107,7 @@ struct ErrorStatistics {
 };
 void members(auto& a, ErrorStatistics& e) {
   members(a, e.quantiles);
-  a.written("histogram", e.histogram, When::filled);
+  a.named("histogram", e.histogram, When::filled);
 }
 
 void members(auto& a, SignedMedian& m) {
@@ -129,12 +129,12 @@ void members(Archive& a, Shares& s) {
 
 template <class Archive>
 void name_errors(Archive& a, const char* name, std::optional<Quantiles>& quantiles,
-                 const std::optional<LogHistogram>& histogram) {
+                 std::optional<LogHistogram>& histogram) {
   std::optional<ErrorStatistics> errors;
   if (quantiles) errors = {*quantiles, histogram};
   a.named(name, errors);
   if constexpr (Archive::reads) {
-    if (errors) quantiles = errors->quantiles;
+    if (errors) quantiles = errors->quantiles, histogram = errors->histogram;
   }
 }
 

@@ -13,6 +13,22 @@ double finite(double value) {
   return std::isnan(value) ? max : std::clamp(value, -max, max);
 }
 
+std::uint64_t LogHistogram::count() const {
+  return std::accumulate(counts.begin(), counts.end(), zero);
+}
+
+std::uint64_t LogHistogram::above(double value) const {
+  const std::int64_t below = std::int64_t{half_decade(value)} + 1 - first;  // so many half decades
+  const auto size = static_cast<std::int64_t>(counts.size());
+  return std::accumulate(counts.begin() + std::clamp<std::int64_t>(below, 0, size), counts.end(),
+                         std::uint64_t{0});
+}
+
+int half_decade(double value) {
+  constexpr double min = -36, max = 11;
+  return static_cast<int>(std::clamp(std::floor(2 * std::log10(value)), min, max));
+}
+
 bool tied_in_time(const SpeedAccuracy& a, const SpeedAccuracy& b) {
   return a.low <= b.high && b.low <= a.high;
 }

@@ -48,8 +48,14 @@ struct LogHistogram {
   int first = 0;
   std::vector<std::uint64_t> counts;  ///< empty or without zeros at its ends
 
+  std::uint64_t count() const;
+  /// Those in half decades above that of `value`, which is positive.
+  std::uint64_t above(double value) const;
   bool operator==(const LogHistogram&) const = default;
 };
+
+/// k of the half decade that a positive magnitude is counted in.
+int half_decade(double value);
 
 using OutcomeCounts = std::array<std::uint64_t, all_outcomes.size()>;  ///< in the order of these
 

@@ -145,15 +145,13 @@ Bounds Magnitudes::ranked(std::uint64_t rank) const {
 
 std::optional<LogHistogram> Magnitudes::half_decades() const {
   if (!is_exact() || entries_.empty()) return std::nullopt;
-  constexpr int min_bin = -36, max_bin = 11;
   LogHistogram result;
   for (const auto& [value, times] : entries_) {
     if (value == 0) {
       result.zero = times;
       continue;
     }
-    const int bin =
-        static_cast<int>(std::clamp<double>(std::floor(2 * std::log10(value)), min_bin, max_bin));
+    const int bin = half_decade(value);
     if (result.counts.empty()) result.first = bin;
     result.counts.resize(static_cast<std::size_t>(bin - result.first) + 1);
     result.counts.back() += times;

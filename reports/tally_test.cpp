@@ -239,6 +239,11 @@ TEST(Magnitudes, CountHalfDecadesAndZerosApart) {
             (LogHistogram{2, -6, {2, 1, 0, 0, 0, 1}}));
   EXPECT_EQ(exactly({0}).half_decades(), (LogHistogram{1, 0, {}}));
   EXPECT_FALSE(exactly({}).half_decades());
+  const LogHistogram some = *exactly({0, 1e-3, 2e-3, 5e-3, 0.5, 0}).half_decades();
+  EXPECT_EQ(some.count(), 6u);
+  EXPECT_EQ(some.above(1e-5), 4u);
+  EXPECT_EQ(some.above(1e-3), 2u);
+  EXPECT_EQ(some.above(1), 0u);
   const LogHistogram beyond = *exactly({1e-300, 1e300}).half_decades();  // in the outermost ones
   EXPECT_EQ(beyond.first, -36);
   EXPECT_EQ(beyond.counts.size(), 48u);
