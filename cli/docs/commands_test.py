@@ -25,6 +25,7 @@ EXIT_CODES = {
     "./touchstone check": {0, 1},
     "./touchstone compare": {0, 1},
     "./touchstone choose": {0, 1},
+    "touchstone check": {0, 1},
     "python3 suite/judge.py": {1},
     "node suite/judge.js": {1},
 }
