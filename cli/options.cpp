@@ -49,8 +49,13 @@ std::vector<const Candidate*> CandidateOption::get() const {
 std::string CandidateOption::command_line(const std::vector<const Candidate*>& candidates) const {
   std::vector<std::string> names;
   for (const Candidate* c : candidates) names.emplace_back(c->name);
-  return fmt::format(" --candidates {} --time-limit {} --memory-limit {}", fmt::join(names, ","),
-                     limits_.seconds, limits_.mebibytes);
+  std::string line = fmt::format(" --candidates {}", fmt::join(names, ","));
+  const Limits usual;
+  if (limits_.seconds != usual.seconds) line += fmt::format(" --time-limit {}", limits_.seconds);
+  if (limits_.mebibytes != usual.mebibytes) {
+    line += fmt::format(" --memory-limit {}", limits_.mebibytes);
+  }
+  return line;
 }
 
 namespace {

@@ -28,7 +28,8 @@ struct CandidateOption {
   std::vector<const Candidate*> get() const;
   const Limits& limits() const { return limits_; }
   const Option& option() const { return option_; }
-  /// These options as text, to be repeated, with every candidate's name.
+  /// These options as text, to be repeated: every candidate's name, and limits other than the
+  /// usual.
   std::string command_line() const { return command_line(get()); }
   /// Likewise, with the names of these candidates.
   std::string command_line(const std::vector<const Candidate*>& candidates) const;

@@ -40,7 +40,7 @@ done
 # Scenes. The command to make it again has all that was set.
 mkdir "$folder/my scenes"
 cp "$can" "$folder/my scenes/"
-expect 0 "choose '$folder/my scenes/can.json' --candidates capsule --time-limit 9 --memory-limit 1024 --disturbances 16 --seed 1\"" \
+expect 0 "choose '$folder/my scenes/can.json' --candidates capsule --time-limit 9 --disturbances 16 --seed 1\"" \
   choose "$folder/my scenes/can.json" --candidates capsule --time-limit 9 --json --out "$folder/choice"
 also 'can stands within 1'
 [ -s "$folder/choice/choose.html" ] || failed "no choose.html"
