@@ -540,6 +540,20 @@ class Report(PageTest):
             self.assertEqual(self.all("#matrix thead th")[column].get_attribute("aria-sort"), "descending")
         self.press(self.all("#matrix thead th")[1])
 
+    def test_a_name_in_the_matrix_tells_what_it_stands_for(self):
+        for name, meaning in (("bullet-margin-0", "margin 0 on cylinder and box"), ("prism:16", "prism:16 models every cylinder")):
+            row = next(r for r in self.all("#matrix tbody tr") if r.text.split()[0] == name)
+            self.assertIn(meaning, self.hover(row.find_element(By.TAG_NAME, "th")).text)
+
+    def test_a_figure_over_all_pairs_says_so_in_its_title(self):
+        captions = ("#answer figcaption", "#outcome-bars-title", "#errors figcaption")
+        for pair, words in (("all", "all pairs together, everyday poses"), ("cylinder-box", "cylinder–box, everyday poses")):
+            self.choose("#pair", pair)
+            for caption in captions:
+                self.assertTrue(self.find(caption).text.endswith(words), caption)
+        self.choose("#pair", "all")
+        self.assertIn("cylinder–", self.find("#trend-caption").text)
+
     def test_the_verdict_says_who_is_right_and_how_fast(self):
         self.choose("#pair", "cylinder-box")
         verdict = self.find("#headline").text

@@ -58,6 +58,11 @@ const sign = name => symbolSign(markOf(name));
 // A candidate that does not run as native code is marked so wherever its name stands.
 const runsText = name => runs[name] ? ` (${runs[name]})` : '';
 const own = name => name === 'reference' ? ' (Touchstone’s own)' : '';
+// What a name stands for in a report, whose candidates its data lists.
+function meaningOf(name) {
+  const c = data.candidates?.find(c => c.name === name);
+  return !c ? '' : c.models ? `${name} models ${c.models}` : `${name} ${c.version}: ${c.settings}`;
+}
 const named = (name, ...rest) => element('span', {class: 'named'}, sign(name), name + runsText(name), ...rest);
 
 // Outcomes, in the order of legends; each has one colour everywhere, a variable of the style sheet.

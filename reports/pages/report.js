@@ -12,6 +12,8 @@ function summedPair() {
   const here = [...new Set(summary().map(r => r.pair))];
   return chosen.pair === 'all' && here.length === 1 ? here[0] : chosen.pair;
 }
+// What a figure is over; where that is all pairs, it says so in its title.
+const over = (pair = summedPair()) => `${pair === 'all' ? 'all pairs together' : dashed(pair)}, ${chosen.group} poses`;
 const summaryOf = (pair, candidate) => summary().find(r => r.pair === pair && r.candidate === candidate);
 const coveredText = r => coveredOf(report.summary, r);
 
@@ -109,7 +111,6 @@ const timeLabel = "datum.value < 1e3 ? datum.value + ' ns' : datum.value < 1e6 ?
 function speedChart() {
   const charted = byId('chart-time').value === 'p95' ? tail : time, place = byId('speed-chart');
   const rows = summary().filter(r => r.pair === summedPair() && charted(r) !== null && r.depth_error !== null);
-  byId('chart-pair').textContent = pairWords(chosen.pair);
   if (rows.length === 0) return clearChart(place, 'No candidate was timed.');
   // The front is that of the medians; candidates whose spreads of time overlap tie (reports/statistics.hpp).
   const front = charted === time ? rows.filter(r => r.pareto).sort((a, b) => time(a) - time(b)) : [];
@@ -126,7 +127,7 @@ function speedChart() {
            `\nClick for its worst classes and cases`}));
   // The members of a family, in the order of their parameter.
   const members = report.candidates.map(c => ({family: c.family, row: rows.find(r => r.candidate === c.name)})).filter(m => m.row);
-  drawScatter(place, `Depth error against time per query, ${pairWords(chosen.pair)}`, {height: panelHeight(), points,
+  drawScatter(place, `Depth error against time per query, ${over()}`, {height: panelHeight(), points,
       x: {title: `time per query${charted === tail ? ', p95' : ''}`, ...decadesOf(rows.map(charted)), label: timeLabel},
       y: powerAxis('depth error, p99 (sizes)', points.map(p => p.y)), lines: [
         {rows: members.map(m => ({family: m.family, ...at(m.row)})), by: 'family', width: 0.8},
@@ -148,6 +149,7 @@ byId('findings').querySelector('ul').append(...report.findings.map(f => element(
 offerGroups([...new Set(report.summary.map(r => r.class))]);
 const manyPairs = offerPairs(pairs);
 offer('candidate', 'Candidate', candidates.map(c => [c, c]), candidates.find(c => !own(c)) ?? candidates[0]);
+follow(() => { for (const e of document.querySelectorAll('.over')) e.textContent = over(); });
 follow(verdict);
 follow(answerMatrix);
 followChart(speedChart);

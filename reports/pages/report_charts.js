@@ -34,7 +34,7 @@ function cumulative(points) {
 }
 function histogram(quantity) {
   const name = chosen.candidate, r = distributionRow(name), q = r && r[quantity];
-  byId('histogram-candidate').textContent = `${name}, ${pairWords(chosen.pair)}`;
+  byId('histogram-candidate').textContent = `${name}, ${over()}`;
   if (!q) return clearChart(byId('distribution-histogram'), 'No contacts.');
   const bars = binsOf(q).filter(([, , n]) => n).map(([a, b, n]) => ({a, b, y: n / owed(r),
       tip: `${name}\n${whole(n)} of ${whole(owed(r))} contacts\nerror ${a < 1e-17 ? 'zero' : `${exponent(a)} to ${exponent(b)}`}`}));
@@ -73,7 +73,7 @@ function trends() {
       tip: `${t.candidate}, ${b.decade === null ? `${variable} zero` : `${variable} 1e${b.decade} to 1e${b.decade + 1}`}\n` +
            `${whole(b.count)} configurations, missed ${whole(b.missed)}\nerror median ${exponent(b.median)}, worst ${exponent(b.max)}`})));
   const host = byId('trend-chart');
-  byId('trend-caption').textContent = `${dashed(pair)}, ${variable}: ${variables[variable]}`;
+  byId('trend-caption').textContent = `${over(pair)}, ${variable}: ${variables[variable]}`;
   if (points.length === 0) return clearChart(host, `${dashed(pair)} has no ${variable}, or no candidate is chosen.`);
   // Every decade has its place, whether it holds a value or not.
   const places = points.map(p => p.x), first = Math.min(...places);

@@ -64,7 +64,7 @@ const modelled = report.summary.filter(r => r.model_error !== null && report.can
 function modelTable() {
   const rows = modelled.filter(r => r.class === chosen.group && r.pair === summedPair()).map(r => {
     const name = rowHead(...namedOver(r));
-    explain(name, report.candidates.find(c => c.name === r.candidate).models);
+    explain(name, meaningOf(r.candidate));
     return [name, ...[r.model_error, r.solver_error].flatMap(q => ['median', 'p99'].map(which => exponent(quantile(q, which))))];
   });
   byId('model-table').replaceChildren(table([textColumn('candidate'), 'model, median', 'p99', 'solver, median', 'p99'], rows,

@@ -87,8 +87,12 @@ function matrix(host, pairs, names, cell, caption) {
   const heads = pairs.map(pair => column(otherShape(pair),
       {'aria-sort': pair === chosen.pair ? 'descending' : 'none'}));
   heads.forEach((head, i) => whenPressed(head, () => choose({pair: pairs[i]})));
-  const row = name => element('tr', own(name) ? {class: 'yardstick'} : {}, rowHead(named(name), own(name) && element('small', {}, own(name))),
-      ...pairs.map(pair => cell(pair, name)));
+  const head = name => {
+    const made = rowHead(named(name), own(name) && element('small', {}, own(name)));
+    if (meaningOf(name)) explain(made, meaningOf(name));
+    return made;
+  };
+  const row = name => element('tr', own(name) ? {class: 'yardstick'} : {}, head(name), ...pairs.map(pair => cell(pair, name)));
   host.replaceChildren(table([textColumn('candidate'), ...heads], [...names.filter(own), ...names.filter(n => !own(n))].map(row), caption, false));
   if (wasFocused) heads[pairs.indexOf(chosen.pair)].focus();
 }
