@@ -1,7 +1,8 @@
-// Every number and every sentence that a reproducer prints, against the oracle, for wrong answers
-// of every engine. What it prints is a matter of the question, the answer and the program's own
-// judgement; so the answers are those of the candidates, planted where a program asks its engine,
-// which reproducer_test.sh runs. TOUCHSTONE_COUNT sets how many answers of each engine are tried.
+// Every number and every sentence that a reproducer prints or begins with, against the oracle, for
+// wrong answers of every engine. What it prints is a matter of the question, the answer and the
+// program's own judgement; so the answers are those of the candidates, planted where a program asks
+// its engine, which reproducer_test.sh runs. TOUCHSTONE_COUNT sets how many answers of each engine
+// are tried.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -14,7 +15,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 #include <regex>
-#include <sstream>
+#include <span>
 #include <unistd.h>
 
 #include <nlohmann/json.hpp>
@@ -169,9 +170,7 @@ std::string asking(const Answer& a, const std::string& language) {
 }
 
 /// The program, with the answer in place of what asks the engine.
-std::string planted(const Wrong& w, const Engine& engine) {
-  const std::string& language = engine.language;
-  const std::string program = reproducer(engine.name, language, w.configuration, w.id, w.bar);
+std::string planted(const std::string& program, const Wrong& w, const std::string& language) {
   const std::string remark = language == "python" ? "# " : "// ";
   // What of the question comes last, and how that ends.
   const auto [last, end] = language == "c++"          ? std::pair("struct Answer {", "\n};\n")
@@ -272,10 +271,34 @@ struct Known {
   /// Of the deepest point.
   double depth() const {
     double deepest = -INFINITY;
-    for (int i = 0; i < w.answer.point_count; ++i) {
-      deepest = std::max(deepest, w.answer.points[i].depth);
-    }
+    for (const ts_point& p : points()) deepest = std::max(deepest, p.depth);
     return deepest;
+  }
+  double shallowest() const {
+    double result = INFINITY;
+    for (const ts_point& p : points()) result = std::min(result, p.depth);
+    return result;
+  }
+  /// How much farther a point is outside a body than its depth.
+  double farthest_off() const {
+    double result = -INFINITY;
+    for (const ts_point& p : points()) {
+      const Vec3 at(p.position);
+      const double outside =
+          std::max(point_distance(c.a, c.pose_a, at), point_distance(c.b, c.pose_b, at));
+      result = std::max(result, outside - std::abs(p.depth));
+    }
+    return result;
+  }
+  bool is_finite() const {
+    return std::isfinite(w.answer.signed_distance) && n.allFinite() &&
+           std::ranges::all_of(points(), [](const ts_point& p) {
+             return Vec3(p.position).allFinite() && Vec3(p.normal).allFinite() &&
+                    std::isfinite(p.depth);
+           });
+  }
+  std::span<const ts_point> points() const {
+    return {w.answer.points, static_cast<std::size_t>(w.answer.point_count)};
   }
   double half_of_a() const {
     return support(c.a, Pose(Vec3::Zero(), c.pose_a.orientation()), best());
@@ -302,8 +325,7 @@ Vec3 vector_at(const Numbers& said, std::size_t from) {
   return {said[from], said[from + 1], said[from + 2]};
 }
 
-void expect_off(const Known& k, const ts_point& p, double from_a, double from_b) {
-  const Vec3 at(p.position);
+void expect_off(const Known& k, const Vec3& at, double from_a, double from_b) {
   const double rounding = k.rounding + 16 * std::numeric_limits<double>::epsilon() * at.norm();
   EXPECT_NEAR(from_a, point_distance(k.c.a, k.c.pose_a, at), rounding);
   EXPECT_NEAR(from_b, point_distance(k.c.b, k.c.pose_b, at), rounding);
@@ -377,9 +399,11 @@ const std::vector<Sentence>& sentences() {
          const Configuration moved = with_a_moved(k.c, -k.distance() * k.best());
          EXPECT_GE(oracle::truth(moved).signed_distance.midpoint(), -k.rounding - k.of_place);
        }},
-      {"  The point " VECTOR, [](const Known&, const Numbers&) {}},
-      {"  is within A by " N " and within B by " N ":",
-       [](const Known&, const Numbers& x) { EXPECT_TRUE(x[0] >= 0 && x[1] >= 0); }},
+      {"  The point " VECTOR "\n  is within A by " N " and within B by " N ":",
+       [](const Known& k, const Numbers& x) {
+         EXPECT_TRUE(x[3] >= 0 && x[4] >= 0);
+         expect_off(k, vector_at(x, 0), -x[3], -x[4]);
+       }},
       {"  the bodies overlap, and the depth is no less than " N "\\.",
        [](const Known& k, const Numbers& x) { EXPECT_LE(x[0], -k.distance() + k.rounding); }},
       {"  The depth to 30 digits is what touchstone replay --certify proves\\.",
@@ -433,33 +457,81 @@ const std::vector<Sentence>& sentences() {
        [](const Known& k, const Numbers&) { EXPECT_LT(k.depth(), -k.distance()); }},
       {"WRONG: overdeep points: the largest depth is too large",
        [](const Known& k, const Numbers&) { EXPECT_GT(k.depth(), -k.distance()); }},
-      {"WRONG: (?:phantom points: one is beyond the threshold|"
-       "off body: a point is farther outside a body than its depth|"
-       "not a finite number|the engine .*)",
-       [](const Known&, const Numbers&) {}},
+      {"WRONG: phantom points: one is beyond the threshold",
+       [](const Known& k, const Numbers&) { EXPECT_GT(-k.shallowest(), k.w.bar.threshold); }},
+      {"WRONG: off body: a point is farther outside a body than its depth",
+       [](const Known& k, const Numbers&) { EXPECT_GT(k.farthest_off(), 0); }},
+      {"WRONG: not a finite number",
+       [](const Known& k, const Numbers&) { EXPECT_FALSE(k.is_finite()); }},
+      {"WRONG: the engine .*",
+       [](const Known& k, const Numbers&) { EXPECT_EQ(k.w.answer.status, TS_FAILED); }},
   };
   return all;
 }
 
 double number_in(const std::string& text) { return std::strtod(text.c_str(), nullptr); }
 
-/// Finds the sentence of a line, and checks its numbers.
-void expect_true(const std::string& line, const Known& known) {
+/// Finds the sentence that a text begins with, checks its numbers, and returns what follows.
+std::string after_true_sentence(const std::string& text, const Known& known) {
   static const std::vector<std::regex> patterns = [] {
     std::vector<std::regex> result;
-    for (const Sentence& s : sentences()) result.emplace_back(s.pattern);
+    for (const Sentence& s : sentences()) result.emplace_back(std::string(s.pattern) + "\n");
     return result;
   }();
   for (std::size_t i = 0; i < patterns.size(); ++i) {
     std::smatch found;
-    if (!std::regex_match(line, found, patterns[i])) continue;
+    if (!std::regex_search(text, found, patterns[i], std::regex_constants::match_continuous)) {
+      continue;
+    }
     Numbers said;
     for (std::size_t k = 1; k < found.size(); ++k) said.push_back(number_in(found[k]));
-    SCOPED_TRACE(line);
+    SCOPED_TRACE(found[0].str());
     sentences()[i].check(known, said);
-    return;
+    return found.suffix();
   }
-  ADD_FAILURE() << "no such sentence is known to be true: " << line;
+  const std::size_t end = text.find('\n');
+  ADD_FAILURE() << "no such sentence is known to be true: " << text.substr(0, end);
+  return end == text.npos ? "" : text.substr(end + 1);
+}
+
+/// "-6.37e-3" as it is.
+mpq_class exact(std::string decimal) {
+  long exponent = 0;
+  if (const auto e = decimal.find('e'); e != decimal.npos) {
+    exponent = std::strtol(decimal.c_str() + e + 1, nullptr, 10);
+    decimal.resize(e);
+  }
+  if (const auto dot = decimal.find('.'); dot != decimal.npos) {
+    exponent -= static_cast<long>(decimal.size() - dot - 1);
+    decimal.erase(dot, 1);
+  }
+  mpz_class power;
+  mpz_ui_pow_ui(power.get_mpz_t(), 10, static_cast<unsigned long>(std::abs(exponent)));
+  mpq_class result = mpz_class(decimal, 10);
+  return exponent < 0 ? mpq_class(result / power) : mpq_class(result * power);
+}
+
+/// What stands above the part that asks: the truth's bounds, and what is allowed.
+void expect_true_head(const std::string& program, const Known& k) {
+  static const std::regex bounds(
+      "True     signed distance between\n\\S+ +(\\S+) and\n\\S+ +(\\S+),\n"),
+      bar("What is allowed: (\\S+) of the (smaller half extent|largest length)[^\n]*\n"
+          "(?:const )?(?:double )?allowed = ([^;\n]+)");
+  std::smatch found;
+  ASSERT_TRUE(std::regex_search(program, found, bounds));
+  EXPECT_LE(exact(found[1]), k.truth.signed_distance.lo);
+  EXPECT_GE(exact(found[2]), k.truth.signed_distance.hi);
+  ASSERT_TRUE(std::regex_search(program, found, bar));
+  const double share = number_in(found[1]), allowed = number_in(found[3]);
+  EXPECT_EQ(allowed, k.w.bar.tolerance * error_size(k.c, k.w.bar));
+  const double of_smaller = k.w.bar.tolerance * smaller_size(k.c);
+  if (found[2] == "smaller half extent") {
+    EXPECT_EQ(share, k.w.bar.tolerance);
+    EXPECT_EQ(allowed, of_smaller);
+  } else {
+    EXPECT_LE(share, k.w.bar.tolerance);
+    EXPECT_GT(allowed, of_smaller);
+  }
 }
 
 /// The two lines of each contact point, which are taken out.
@@ -477,7 +549,7 @@ void expect_points(std::string& text, const Known& known) {
       EXPECT_TRUE(said == given[i] || (std::isnan(said) && std::isnan(given[i]))) << found[0];
     }
     if (Vec3(p.position).allFinite()) {
-      expect_off(known, p, number_in(found[5]), number_in(found[6]));
+      expect_off(known, Vec3(p.position), number_in(found[5]), number_in(found[6]));
     }
     text = std::string(found.prefix()) + std::string(found.suffix());
   }
@@ -487,10 +559,13 @@ void expect_points(std::string& text, const Known& known) {
 void expect_true_of(const Engine& engine, std::size_t count) {
   const std::vector<Wrong> wrong = wrong_answers(engine.candidate, count);
   EXPECT_EQ(wrong.size(), count);
-  std::vector<std::string> programs;
+  std::vector<std::string> programs, heads;
   {
     const WithoutPackages none;
-    for (const Wrong& w : wrong) programs.push_back(planted(w, engine));
+    for (const Wrong& w : wrong) {
+      heads.push_back(reproducer(engine.name, engine.language, w.configuration, w.id, w.bar));
+      programs.push_back(planted(heads.back(), w, engine.language));
+    }
   }
   const std::vector<std::string> printed = printed_by(programs, engine.language);
   ASSERT_EQ(printed.size(), wrong.size());
@@ -498,12 +573,12 @@ void expect_true_of(const Engine& engine, std::size_t count) {
     SCOPED_TRACE(
         fmt::format("{} in {}, {}\n{}", engine.name, engine.language, wrong[i].id, printed[i]));
     const Known known(wrong[i]);
+    expect_true_head(heads[i], known);
     std::string text = printed[i];
     expect_points(text, known);
-    std::istringstream lines(text);
-    std::string verdict;
-    for (std::string line; std::getline(lines, line); verdict = line) expect_true(line, known);
+    const std::string verdict = text.substr(text.rfind("WRONG: "));
     EXPECT_TRUE(verdict.starts_with("WRONG: " + verdict_of(wrong[i].outcome))) << verdict;
+    while (!text.empty()) text = after_true_sentence(text, known);
   }
 }
 

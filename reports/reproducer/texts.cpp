@@ -165,7 +165,11 @@ Texts truth_texts(const Configuration& c, const oracle::Truth& truth, const Bar&
   writer.put("threshold", bar.threshold);
   writer.texts["truth_low"] = low;
   writer.texts["truth_high"] = high;
-  writer.texts["tolerance"] = fmt::format("{}", bar.tolerance);
+  const bool is_of_smaller = error_size(c, bar) == smaller_size(c);
+  writer.texts["allowed_words"] =
+      is_of_smaller ? fmt::format("{} of the smaller half extent of both bodies", bar.tolerance)
+                    : fmt::format("{} of the largest length, for doubles place no body better",
+                                  std::min(bar.tolerance, 1e-13));
   return writer.texts;
 }
 
