@@ -1,9 +1,17 @@
+// Hulls by exact predicates: CGAL's quickhull triangulates the surface, of which edges between
+// triangles in one plane are then taken away, and corners between edges on one line.
 #include "oracle/hull.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Projection_traits_xy_3.h>
+#include <CGAL/Projection_traits_xz_3.h>
+#include <CGAL/Projection_traits_yz_3.h>
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/ch_graham_andrew.h>
+#include <CGAL/convex_hull_3.h>
 #include <algorithm>
-#include <array>
-#include <set>
+#include <iterator>
+#include <map>
 #include <string>
 #include <utility>
 
@@ -14,101 +22,139 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_3;
+using Mesh = CGAL::Surface_mesh<Point>;
+/// The corners of each face, counterclockwise seen from outside.
+using Faces = std::vector<std::vector<Point>>;
 
-int side(const Point& p, const Point& q, const Point& r, const Point& x) {
-  return CGAL::orientation(p, q, r, x);
+Point exact_point(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+bool in_one_plane(const std::vector<Point>& points) {
+  const auto third = std::find_if(points.begin() + 1, points.end(), [&](const Point& p) {
+    return !CGAL::collinear(points[0], points[1], p);
+  });
+  return std::all_of(points.begin(), points.end(), [&](const Point& p) {
+    return third == points.end() || CGAL::coplanar(points[0], points[1], *third, p);
+  });
 }
 
-/// The corners of points in one plane, counterclockwise in a projection that keeps the plane whole.
-std::vector<int> polygon(const std::vector<Point>& points, std::vector<int> on, bool& reversed,
-                         const std::array<int, 3>& triple) {
-  const auto turn = [&](int drop, int i, int j, int k) {
-    const auto flat = [&](int v) {
-      const Point& p = points[static_cast<std::size_t>(v)];
-      return Kernel::Point_2(p[(drop + 1) % 3], p[(drop + 2) % 3]);
-    };
-    return static_cast<int>(CGAL::orientation(flat(i), flat(j), flat(k)));
-  };
-  int drop = 0;
-  while (turn(drop, triple[0], triple[1], triple[2]) == 0) ++drop;
-  reversed = turn(drop, triple[0], triple[1], triple[2]) < 0;
-  const int x = (drop + 1) % 3, y = (drop + 2) % 3;
-  std::sort(on.begin(), on.end(), [&](int i, int j) {
-    const Point &p = points[static_cast<std::size_t>(i)], &q = points[static_cast<std::size_t>(j)];
-    return std::pair(p[x], p[y]) < std::pair(q[x], q[y]);
-  });
-  std::vector<int> chain;
-  for (int pass = 0; pass < 2; ++pass) {
-    const std::size_t start = chain.size();
-    for (const int v : on) {
-      while (chain.size() >= start + 2 &&
-             turn(drop, chain[chain.size() - 2], chain.back(), v) <= 0) {
-        chain.pop_back();
-      }
-      chain.push_back(v);
-    }
-    chain.pop_back();
-    std::reverse(on.begin(), on.end());
+/// Corners of points in one plane, seen along a coordinate; fewer than three if it lies in the
+/// plane.
+template <class Projection>
+std::vector<Point> polygon_corners(const std::vector<Point>& points) {
+  std::vector<Point> result;
+  CGAL::ch_graham_andrew(points.begin(), points.end(), std::back_inserter(result), Projection());
+  return result;
+}
+
+/// None of points on one line.
+Faces faces_of_polygon(const std::vector<Point>& points) {
+  for (std::vector<Point> front : {polygon_corners<CGAL::Projection_traits_xy_3<Kernel>>(points),
+                                   polygon_corners<CGAL::Projection_traits_yz_3<Kernel>>(points),
+                                   polygon_corners<CGAL::Projection_traits_xz_3<Kernel>>(points)}) {
+    if (front.size() > 2) return {front, std::vector<Point>(front.rbegin(), front.rend())};
   }
-  return chain;
+  return {};
+}
+
+Faces faces_of_polyhedron(const std::vector<Point>& points) {
+  Mesh mesh;
+  CGAL::convex_hull_3(points.begin(), points.end(), mesh);
+  const auto apex = [&](Mesh::Halfedge_index h) { return mesh.point(mesh.target(mesh.next(h))); };
+  // An edge is one if its triangles are not in one plane, and a corner has three edges or more.
+  std::vector<bool> is_edge(mesh.num_halfedges()), seen(mesh.num_halfedges());
+  std::vector<int> edges_at(mesh.num_vertices());
+  for (const auto h : mesh.halfedges()) {
+    is_edge[h] = !CGAL::coplanar(mesh.point(mesh.source(h)), mesh.point(mesh.target(h)), apex(h),
+                                 apex(mesh.opposite(h)));
+    if (is_edge[h]) ++edges_at[mesh.source(h)];
+  }
+  Faces faces;
+  for (const auto first : mesh.halfedges()) {
+    if (!is_edge[first] || seen[first]) continue;
+    std::vector<Point>& face = faces.emplace_back();
+    for (auto h = first; !seen[h];) {
+      seen[h] = true;
+      if (edges_at[mesh.source(h)] > 2) face.push_back(mesh.point(mesh.source(h)));
+      for (h = mesh.next(h); !is_edge[h];) h = mesh.next(mesh.opposite(h));
+    }
+  }
+  return faces;
+}
+
+/// Are the faces exactly plane, and all angles between them and between their edges below 180°?
+bool is_exact(const Convex& body) {
+  if (body.vertices().size() == 3) return true;
+  if (body.is_flat()) return false;
+  const auto side = [&](const Convex::Face& face, int v) {
+    const auto at = [&](int i) { return exact_point(body.vertices()[i]); };
+    const auto& on = face.vertices;
+    return CGAL::orientation(at(on[0]), at(on[1]), at(on[2]), at(v));
+  };
+  std::vector<int> edges_at(body.vertices().size());
+  for (const Convex::Edge& edge : body.edges()) {
+    for (const int v : edge.vertices) ++edges_at[v];
+    const auto& beside = body.faces()[edge.faces[1]].vertices;
+    const int beyond = *std::find_if(beside.begin(), beside.end(), [&](int v) {
+      return v != edge.vertices[0] && v != edge.vertices[1];
+    });
+    if (side(body.faces()[edge.faces[0]], beyond) != CGAL::NEGATIVE) return false;
+  }
+  return std::all_of(edges_at.begin(), edges_at.end(), [](int edges) { return edges > 2; }) &&
+         std::all_of(body.faces().begin(), body.faces().end(), [&](const Convex::Face& face) {
+           return std::all_of(face.vertices.begin(), face.vertices.end(),
+                              [&](int v) { return side(face, v) == CGAL::COPLANAR; });
+         });
 }
 
 }  // namespace
 
 Convex convex_hull(const std::vector<Vec3>& given) {
-  std::vector<Vec3> distinct;
-  for (const Vec3& v : given) {
-    if (!v.allFinite()) throw InvalidInput("vertices", "not finite", "must be finite");
-    if (std::find(distinct.begin(), distinct.end(), v) == distinct.end()) distinct.push_back(v);
+  if (given.size() > Convex::max_vertices) {
+    throw InvalidInput("vertices", std::to_string(given.size()) + " points",
+                       "must be at most " + std::to_string(Convex::max_vertices));
   }
+  std::map<Point, int> index;  // the first of equal ones
   std::vector<Point> points;
-  for (const Vec3& v : distinct) points.emplace_back(v.x(), v.y(), v.z());
-  const int count = static_cast<int>(points.size());
-  std::set<std::vector<int>> known;
-  std::vector<std::vector<int>> faces;
-  const auto at = [&](int i) -> const Point& { return points[static_cast<std::size_t>(i)]; };
-  for (int i = 0; i < count; ++i) {
-    for (int j = i + 1; j < count; ++j) {
-      for (int k = j + 1; k < count; ++k) {
-        if (CGAL::collinear(at(i), at(j), at(k))) continue;
-        std::vector<int> on;
-        bool above = false, below = false;
-        for (int v = 0; v < count && !(above && below); ++v) {
-          const int s = side(at(i), at(j), at(k), at(v));
-          if (s > 0) above = true;
-          if (s < 0) below = true;
-          if (s == 0) on.push_back(v);
-        }
-        if ((above && below) || !known.insert(on).second) continue;
-        bool reversed = false;
-        std::vector<int> face = polygon(points, on, reversed, {i, j, k});
-        if (reversed) std::reverse(face.begin(), face.end());
-        // Counterclockwise as i, j, k, which is seen from outside if all others are below.
-        if (above) std::reverse(face.begin(), face.end());
-        faces.push_back(face);
-        if (!above && !below) {
-          std::reverse(face.begin(), face.end());
-          faces.push_back(face);
-        }
-      }
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    if (!given[i].allFinite()) {
+      throw InvalidInput("vertices[" + std::to_string(i) + "]", "not finite", "must be finite");
     }
+    const Point p = exact_point(given[i]);
+    if (index.emplace(p, static_cast<int>(i)).second) points.push_back(p);
   }
-  if (faces.empty()) {
-    throw InvalidInput("vertices", std::to_string(given.size()) + " points on one line",
+  if (points.size() < 3) {
+    throw InvalidInput("vertices", std::to_string(points.size()) + " different points",
                        "must have three that are not on one line");
   }
-  std::vector<int> index(distinct.size(), -1);
+  const Faces faces = in_one_plane(points) ? faces_of_polygon(points) : faces_of_polyhedron(points);
+  if (faces.empty()) {
+    throw InvalidInput("vertices", std::to_string(points.size()) + " points on one line",
+                       "must have three that are not on one line");
+  }
+
+  std::vector<int> rank(given.size(), -1);
+  for (const auto& face : faces) {
+    for (const Point& p : face) rank[index[p]] = 0;
+  }
   std::vector<Vec3> vertices;
-  std::set<int> used;
-  for (const auto& face : faces) used.insert(face.begin(), face.end());
-  for (const int v : used) {
-    index[static_cast<std::size_t>(v)] = static_cast<int>(vertices.size());
-    vertices.push_back(distinct[static_cast<std::size_t>(v)]);
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    if (rank[i] < 0) continue;
+    rank[i] = static_cast<int>(vertices.size());
+    vertices.push_back(given[i]);
   }
-  for (auto& face : faces) {
-    for (int& v : face) v = index[static_cast<std::size_t>(v)];
+  // Each face begins with its first vertex, and the faces are sorted, whatever order CGAL found.
+  std::vector<std::vector<int>> indices;
+  for (const auto& face : faces) {
+    auto& on = indices.emplace_back();
+    for (const Point& p : face) on.push_back(rank[index[p]]);
+    std::rotate(on.begin(), std::min_element(on.begin(), on.end()), on.end());
   }
-  return {std::move(vertices), std::move(faces)};
+  std::sort(indices.begin(), indices.end());
+  return {std::move(vertices), std::move(indices)};
+}
+
+Convex exact_hull(const Convex& body) {
+  return is_exact(body) ? body : convex_hull(body.vertices());
 }
 
 }  // namespace touchstone::oracle
