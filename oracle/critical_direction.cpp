@@ -13,6 +13,12 @@ namespace {
 /// Is the gap along n exactly zero? All terms are multiplied by norm.
 bool gap_is_zero(const Difference& difference, const IntegerVector& n) {
   Integer a = dot(difference.d, n);
+  if (difference.hull) {
+    const auto& vertices = difference.hull->vertices;
+    Integer highest = dot(vertices.front(), n);
+    for (const IntegerVector& v : vertices) highest = std::max(highest, dot(v, n));
+    a -= highest;
+  }
   for (const auto& s : difference.segments) a -= s.half_length * abs(dot(s.frame.axis, n));
   std::vector<Integer> squares;
   for (const auto& disc : difference.discs) {
@@ -27,7 +33,7 @@ bool gap_is_zero(const Difference& difference, const IntegerVector& n) {
   return is_root_sum(a, squares[0], squares[1]);
 }
 
-/// n, and −n unless it is the single direction of a half-space.
+/// n, and −n unless it is single.
 class RationalDirection : public CriticalDirection {
  public:
   RationalDirection(IntegerVector n, std::optional<DirectionFamily> family, bool is_single)
@@ -36,13 +42,15 @@ class RationalDirection : public CriticalDirection {
   void enclose(const Difference&, const BallDifference& balls,
                std::vector<DirectionBound>& out) override {
     const BallVector n = to_balls(n_);
-    const auto [centre_distance, half_width] = balls.along(n);
+    const auto [centre_distance, opposite, half_width] = balls.along(n);
     out.push_back({centre_distance - half_width, n});
-    if (!is_single_) out.push_back({-centre_distance - half_width, -n});
+    if (!is_single_) out.push_back({opposite - half_width, -n});
   }
   ZeroGap zero_gap(const Difference& difference) override {
-    const bool forth = is_single_ || dot(difference.d, n_) >= 0;
-    return gap_is_zero(difference, forth ? n_ : -n_) ? ZeroGap::zero : ZeroGap::unknown;
+    // Of opposite gaps only one can reach zero.
+    const bool is_zero =
+        gap_is_zero(difference, n_) || (!is_single_ && gap_is_zero(difference, -n_));
+    return is_zero ? ZeroGap::zero : ZeroGap::unknown;
   }
   bool is_across(const IntegerVector& v) override { return dot(n_, v) == 0; }
   std::optional<DirectionFamily> family() const override { return family_; }
@@ -64,13 +72,65 @@ TurnedFrame turned_frame(const Frame& frame, double heading) {
           one * one + tangent * tangent};
 }
 
-std::vector<IntegerVector> signed_axes(const Difference& difference, unsigned signs,
-                                       const Difference::Segment* skipped) {
+namespace {
+
+/// The segment that the site's directions are perpendicular to.
+const Difference::Segment* segment_across(const Difference& difference, const CriticalSite& site) {
+  const bool is_across = site.kind == CriticalSite::Kind::radial ||
+                         (site.kind == CriticalSite::Kind::rim_line && !difference.hull);
+  return is_across ? &difference.segments[site.first] : nullptr;
+}
+
+int vertex_of_hull(const Difference::Hull& hull, const CriticalSite& site) {
+  return site.kind == CriticalSite::Kind::rim_line ? hull.body.edges()[site.first].vertices[0]
+                                                   : static_cast<int>(site.second);
+}
+
+/// Other ends of the edges at a vertex.
+std::vector<int> neighbours(const Convex& body, int vertex) {
+  std::vector<int> result;
+  for (const Convex::Edge& edge : body.edges()) {
+    if (edge.vertices[0] == vertex) result.push_back(edge.vertices[1]);
+    if (edge.vertices[1] == vertex) result.push_back(edge.vertices[0]);
+  }
+  return result;
+}
+
+/// A vertex of each of the edge's faces beside it.
+std::vector<int> beside_edge(const Convex& body, const Convex::Edge& edge) {
+  std::vector<int> result;
+  for (const int face : edge.faces) {
+    const std::vector<int>& on = body.faces()[face].vertices;
+    result.push_back(*std::find_if(on.begin(), on.end(), [&](int v) {
+      return v != edge.vertices[0] && v != edge.vertices[1];
+    }));
+  }
+  return result;
+}
+
+}  // namespace
+
+IntegerVector reduced_point(const Difference& difference, const CriticalSite& site) {
+  const IntegerVector q = reduced_point(difference, site.signs, segment_across(difference, site));
+  if (!difference.hull) return q;
+  return q - difference.hull->vertices[vertex_of_hull(*difference.hull, site)];
+}
+
+std::vector<IntegerVector> inward(const Difference& difference, const CriticalSite& site) {
   std::vector<IntegerVector> result;
+  const Difference::Segment* const across = segment_across(difference, site);
   for (std::size_t i = 0; i < difference.segments.size(); ++i) {
     const auto& segment = difference.segments[i];
-    if (&segment == skipped) continue;
-    result.push_back((signs >> i & 1U) ? segment.frame.axis : -segment.frame.axis);
+    if (&segment == across) continue;
+    result.push_back((site.signs >> i & 1U) ? segment.frame.axis : -segment.frame.axis);
+  }
+  if (!difference.hull) return result;
+  const auto& [vertices, body, reach] = *difference.hull;
+  const int vertex = vertex_of_hull(*difference.hull, site);
+  for (const int other : site.kind == CriticalSite::Kind::rim_line
+                             ? beside_edge(body, body.edges()[site.first])
+                             : neighbours(body, vertex)) {
+    result.push_back(vertices[vertex] - vertices[other]);
   }
   return result;
 }
@@ -104,21 +164,18 @@ std::unique_ptr<CriticalDirection> rational_direction(IntegerVector n,
   return std::make_unique<RationalDirection>(std::move(n), std::move(family), false);
 }
 
-Certainty at_vertex(const BallDifference& balls, unsigned signs, const BallVector& n,
-                    std::optional<unsigned> skipped) {
+Certainty at_vertex(const std::vector<IntegerVector>& inward, const BallVector& n) {
   Certainty result = Certainty::yes;
-  for (unsigned i = 0; i < balls.segments(); ++i) {
-    if (i == skipped) continue;
-    const Ball along = dot(balls.axis(i), n);
-    const bool positive_side = (signs >> i & 1U) != 0;
-    if (positive_side ? along.is_negative() : along.is_positive()) return Certainty::no;
-    if (!(positive_side ? along.is_positive() : along.is_negative())) result = Certainty::undecided;
+  for (const IntegerVector& v : inward) {
+    const Ball side = dot(to_balls(v), n);
+    if (side.is_negative()) return Certainty::no;
+    if (!side.is_positive()) result = Certainty::undecided;
   }
   return result;
 }
 
-std::unique_ptr<CriticalDirection> plane_direction(const Difference& difference) {
-  return std::make_unique<RationalDirection>(difference.plane_normal, std::nullopt, true);
+std::unique_ptr<CriticalDirection> single_direction(IntegerVector n) {
+  return std::make_unique<RationalDirection>(std::move(n), std::nullopt, true);
 }
 
 }  // namespace touchstone::oracle

@@ -14,6 +14,7 @@ namespace touchstone::oracle {
 struct CriticalSite {
   enum class Kind {
     disc_axis,  ///< ± the axis of disc `first`
+    face,       ///< the normal of the hull's face `first`
     crossing,   ///< ± the cross product of segments `first` and `second`
     radial,     ///< perpendicular to segment `first`, towards the vertex `signs`; the only disc has
                 ///< the segment's axis
@@ -23,6 +24,8 @@ struct CriticalSite {
     rim_rim      ///< between the rims of both discs, at the vertex `signs`
   };
   Kind kind;
+  /// Against a hull, whose only segment and disc are A's: `second` of crossing and `first` of
+  /// rim_line are an edge of the hull, `second` of radial and rim_vertex is a vertex of it.
   unsigned first = 0, second = 0;
   unsigned signs = 0;  ///< bit i: the direction is on the positive side of segment i's axis
   /// rim_line: the direction is x e + y f in the segment's frame, with (x, y) = (1, t) turned by
@@ -101,6 +104,7 @@ using CriticalDirections = std::vector<std::unique_ptr<CriticalDirection>>;
 
 void append_disc_axis(const Difference& difference, const CriticalSite& site,
                       CriticalDirections& out);
+void append_face(const Difference& difference, const CriticalSite& site, CriticalDirections& out);
 void append_crossing(const Difference& difference, const CriticalSite& site,
                      CriticalDirections& out);
 void append_radial(const Difference& difference, const CriticalSite& site, CriticalDirections& out);
@@ -111,16 +115,20 @@ void append_rim_line(const Difference& difference, const CriticalSite& site,
 void append_rim_rim(const Difference& difference, const CriticalSite& site,
                     CriticalDirections& out);
 
-/// The single direction of a half-space.
-std::unique_ptr<CriticalDirection> plane_direction(const Difference& difference);
+/// The single direction n, with integer coordinates.
+std::unique_ptr<CriticalDirection> single_direction(IntegerVector n);
 
 /// Both directions ±n with integer coordinates.
 std::unique_ptr<CriticalDirection> rational_direction(IntegerVector n,
                                                       std::optional<DirectionFamily> family = {});
 
-/// The segments' axes, each pointing to the side given by `signs`.
-std::vector<IntegerVector> signed_axes(const Difference& difference, unsigned signs,
-                                       const Difference::Segment* skipped = nullptr);
+/// d less the site's ends of all segments but the one that its directions are perpendicular to, and
+/// less its vertex of the hull; times norm.
+IntegerVector reduced_point(const Difference& difference, const CriticalSite& site);
+
+/// The directions n at which these ends and this vertex are the highest have n·v >= 0 for each of
+/// these v.
+std::vector<IntegerVector> inward(const Difference& difference, const CriticalSite& site);
 
 /// All directions n perpendicular to a line with n·v >= 0 for every `inward` v: a circle, or an
 /// arc. An arc without ends is empty.
@@ -128,9 +136,7 @@ DirectionFamily sector(const IntegerVector& line, const std::vector<IntegerVecto
 
 enum class Certainty { no, undecided, yes };
 
-/// Is the direction on the side of every segment's axis that `signs` says? Undecided where balls
-/// contain zero.
-Certainty at_vertex(const BallDifference& balls, unsigned signs, const BallVector& n,
-                    std::optional<unsigned> skipped = std::nullopt);
+/// Is n·v > 0 for every `inward` v? Undecided where balls contain zero.
+Certainty at_vertex(const std::vector<IntegerVector>& inward, const BallVector& n);
 
 }  // namespace touchstone::oracle

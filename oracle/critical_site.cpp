@@ -32,6 +32,10 @@ class Search {
   void search_rim_vertices();
   void search_radial();
   void search_curves();
+  void search_hull();
+  void search_vertices();
+  void search_edges(const std::vector<IntervalVector>& normals);
+  void close_pieces();
   std::vector<CriticalSite> curve_sites() const;
   void isolate(const CriticalSite& site, std::vector<CriticalSite>& out);
   bool isolate_line(const CriticalSite& site);
@@ -45,12 +49,13 @@ class Search {
     CriticalSite site;
     Interval gap;
   };
-  // At most: one disc axis, six crossings of four segments, and sixteen vertices; or two disc axes
-  // and one crossing.
-  boost::container::static_vector<Direction, 24> directions_;
+  // One disc axis, six crossings of four segments, and sixteen vertices; or two disc axes and one
+  // crossing; or those of a hull.
+  boost::container::small_vector<Direction, 24> directions_;
 
-  // Curves: the circle perpendicular to each segment, then the rim pairs at each vertex.
-  boost::container::static_vector<LineSearch, max_segments> lines_;
+  // Curves: the circle perpendicular to each segment or the arc of each edge of a hull, then the
+  // rim pairs at each vertex.
+  boost::container::small_vector<LineSearch, max_segments> lines_;
   boost::container::static_vector<RimSearch, 4> rims_;
   struct OpenPiece {
     Piece piece;
@@ -127,6 +132,11 @@ void Search::search_curves() {
   };
   // Two turns of a line: the other two are opposite.
   for (unsigned i = 0; i < lines_.size() + rims_.size(); ++i) add(i);
+  close_pieces();
+}
+
+/// Splits what stays open of the curves' pieces.
+void Search::close_pieces() {
   for (int split = 0;; ++split) {
     next_.clear();
     for (OpenPiece& open : pieces_) {
@@ -146,6 +156,89 @@ void Search::search_curves() {
       const double middle = (lo + hi) / 2;
       pieces_.push_back({{curve, turn, lo, middle}, open.vertices});
       pieces_.push_back({{curve, turn, middle, hi}, open.vertices});
+    }
+  }
+}
+
+/// The normals of the hull's faces, and what its vertices and edges have as normals.
+void Search::search_hull() {
+  const Difference::Hull& hull = *exact_.hull;
+  std::vector<IntervalVector> normals;
+  for (unsigned i = 0; i < hull.body.faces().size(); ++i) {
+    const IntervalVector& n =
+        normals.emplace_back(scaled_direction(face_normal(hull, static_cast<int>(i))));
+    const int corner = hull.body.faces()[i].vertices.front();
+    const Interval gap = difference_.gap_of_vertex(difference_.vertices[corner], n);
+    threshold_.raise(gap);
+    directions_.push_back({{Kind::face, i}, gap});
+  }
+  search_vertices();
+  search_edges(normals);
+  close_pieces();
+}
+
+/// The sides and the rims of A towards each vertex, where no neighbour of it is higher.
+void Search::search_vertices() {
+  const auto& vertices = difference_.vertices;
+  std::vector<std::vector<int>> neighbours(vertices.size());
+  for (const Convex::Edge& edge : exact_.hull->body.edges()) {
+    const auto& [from, to] = edge.vertices;
+    neighbours[from].push_back(to);
+    neighbours[to].push_back(from);
+  }
+  const auto add = [&](const CriticalSite& site, const IntervalVector& n) {
+    const IntervalVector& vertex = vertices[site.second];
+    const Interval gap = difference_.gap_of_vertex(vertex, n);
+    if (threshold_.is_above(gap)) return;
+    bool is_highest = true;
+    for (const int other : neighbours[site.second]) {
+      const Interval above = dot(vertex - vertices[other], n);
+      if (above.sup() < 0) return;
+      is_highest = is_highest && above.inf() >= 0;
+    }
+    if (is_highest) threshold_.raise(gap);
+    directions_.push_back({site, gap});
+  };
+  const auto& disc = difference_.discs.front();
+  const auto& side = difference_.segments.front();
+  for (unsigned i = 0; i < vertices.size(); ++i) {
+    const IntervalVector q = difference_.d - vertices[i], across{q.x, q.y, 0};
+    const Interval length = norm(across);
+    add({Kind::radial, 0, i}, across);
+    if ((length - disc.radius).sup() < 0) continue;
+    for (const unsigned signs : {0U, 1U}) {
+      const Interval end = signs == 1 ? side.half_length : -side.half_length;
+      const IntervalVector n = q - end * side.frame.axis - (disc.radius / length) * across;
+      add({Kind::rim_vertex, 0, i, signs}, n);
+    }
+  }
+}
+
+/// The crossing of A's axis with each edge, and the pieces of its arc.
+void Search::search_edges(const std::vector<IntervalVector>& normals) {
+  const Difference::Hull& hull = *exact_.hull;
+  for (unsigned i = 0; i < hull.body.edges().size(); ++i) {
+    const Convex::Edge& edge = hull.body.edges()[i];
+    const IntegerVector along = edge_vector(hull, static_cast<int>(i));
+    if (along.x == 0 && along.y == 0) continue;  // the radial directions of its vertices
+    const IntervalVector& vertex = difference_.vertices[edge.vertices[0]];
+    const auto curve_of_edge = static_cast<unsigned>(lines_.size());
+    const LineSearch& line = lines_.emplace_back(difference_, i, along, vertex,
+                                                 normals[edge.faces[0]], normals[edge.faces[1]]);
+    const IntervalVector crossing = scaled_direction({-along.y, along.x, 0});
+    for (unsigned turn = 0; turn < 4; ++turn) {
+      const auto [curve, of_turn, lo, hi] = line.in_arc(turn);
+      if (!(lo <= hi)) continue;
+      if (turn % 2 == 0 && lo <= 0 && 0 <= hi) {
+        const Interval gap = difference_.gap_of_vertex(vertex, turn == 0 ? crossing : -crossing);
+        directions_.push_back({{Kind::crossing, 0, i}, gap});
+      }
+      const int pieces = hi - lo > 0.5 ? first_pieces : 1;
+      for (int k = 0; k < pieces; ++k) {
+        const double width = (hi - lo) / pieces, from = lo + k * width;
+        pieces_.push_back(
+            {{curve_of_edge, turn, from, k + 1 == pieces ? hi : from + width}, {1, 0}});
+      }
     }
   }
 }
@@ -179,13 +272,14 @@ std::vector<CriticalSite> Search::curve_sites() const {
     const LineSearch& line = lines_[piece.curve];
     for (unsigned v = 0; v < 1U << line.others(); ++v) {
       if (!(vertices >> v & 1UL)) continue;
-      const unsigned signs = all_signs(v, piece.curve);
+      // Of a hull, A's axis is the only segment.
+      const unsigned signs = exact_.hull ? v : all_signs(v, piece.curve);
       if (line.tilted_disc()) {
-        extend({Kind::rim_line, piece.curve, *line.tilted_disc(), signs, turn, piece.lo, piece.hi,
+        extend({Kind::rim_line, line.line(), *line.tilted_disc(), signs, turn, piece.lo, piece.hi,
                 line.heading()});
       } else {
         // One rational direction serves the whole circle.
-        extend({Kind::radial, piece.curve, 0, signs});
+        extend({Kind::radial, line.line(), 0, signs});
       }
     }
   };
@@ -206,8 +300,9 @@ std::vector<CriticalSite> Search::curve_sites() const {
 }
 
 bool Search::isolate_line(const CriticalSite& site) {
-  const LineSearch& line = lines_[site.first];
-  const unsigned vertex = other_signs(site.signs, site.first);
+  const LineSearch& line = *std::find_if(
+      lines_.begin(), lines_.end(), [&](const LineSearch& l) { return l.line() == site.first; });
+  const unsigned vertex = exact_.hull ? site.signs : other_signs(site.signs, site.first);
   for (const int branch : {1, -1}) {
     if (!isolate_slope_roots(line.slope(vertex, branch), branch,
                              {site.first, site.turn, site.lo, site.hi}, brackets_)) {
@@ -248,11 +343,15 @@ void Search::isolate(const CriticalSite& site, std::vector<CriticalSite>& out) {
 
 std::vector<CriticalSite> Search::run() {
   search_directions();
-  search_rim_vertices();
-  if (difference_.segments.size() == 1) {
-    search_radial();
+  if (exact_.hull) {
+    search_hull();
   } else {
-    search_curves();
+    search_rim_vertices();
+    if (difference_.segments.size() == 1) {
+      search_radial();
+    } else {
+      search_curves();
+    }
   }
 
   std::vector<CriticalSite> sites;

@@ -55,14 +55,17 @@ IntervalDifference::IntervalFrame unit(const Frame& frame, const ScaledInterval&
 
 }  // namespace
 
-IntervalDifference::IntervalDifference(const Difference& difference) : scale(difference.inflation) {
-  for (const auto& s : difference.segments) scale += s.half_length;
-  for (const auto& disc : difference.discs) scale += disc.radius;
+IntervalVector scaled_direction(const IntegerVector& v) {
+  return ratio(v, scaled(std::max({Integer(abs(v.x)), Integer(abs(v.y)), Integer(abs(v.z))})));
+}
+
+IntervalDifference::IntervalDifference(const Difference& difference)
+    : scale(sum_of_sizes(difference)) {
   const ScaledInterval norm = scaled(difference.norm);
-  const ScaledInterval length = scaled(scale);
+  const ScaledInterval length = scaled(scale), length_norm = scaled(scale * difference.norm);
 
   metre = ratio(difference.per_metre, length);
-  d = ratio(difference.d, scaled(scale * difference.norm));
+  d = ratio(difference.d, length_norm);
   for (const auto& s : difference.segments) {
     segments.push_back({unit(s.frame, norm), ratio(s.half_length, length)});
   }
@@ -70,13 +73,31 @@ IntervalDifference::IntervalDifference(const Difference& difference) : scale(dif
     discs.push_back({unit(disc.frame, norm), ratio(disc.radius, length)});
   }
   inflation = ratio(difference.inflation, length);
+  if (!difference.hull) return;
+  for (const IntegerVector& v : difference.hull->vertices) {
+    vertices.push_back(ratio(v, length_norm));
+  }
 }
 
 OppositeGaps IntervalDifference::gaps(const IntervalVector& n) const {
   const Interval length = norm(n);
   const Interval centre_distance = dot(d, n) / length;
   const Interval half_width = add_half_width(Interval(0), segments, discs, n) / length + inflation;
-  return {centre_distance - half_width, -centre_distance - half_width};
+  OppositeGaps gaps{centre_distance - half_width, -centre_distance - half_width};
+  if (vertices.empty()) return gaps;
+  Interval highest = dot(vertices.front(), n), lowest = highest;
+  for (const IntervalVector& v : vertices) {
+    const Interval height = dot(v, n);
+    highest = max(highest, height);
+    lowest = min(lowest, height);
+  }
+  return {gaps.forth - highest / length, gaps.back + lowest / length};
+}
+
+Interval IntervalDifference::gap_of_vertex(const IntervalVector& vertex,
+                                           const IntervalVector& n) const {
+  return (dot(d - vertex, n) - add_half_width(Interval(0), segments, discs, n)) / norm(n) -
+         inflation;
 }
 
 namespace {
@@ -96,7 +117,7 @@ double heading_of(double e, double f) {
 
 LineSearch::LineSearch(const IntervalDifference& difference, const Difference& exact,
                        unsigned segment, std::optional<unsigned> tilted_disc)
-    : inflation_(difference.inflation), tilted_disc_(tilted_disc) {
+    : line_(segment), inflation_(difference.inflation), tilted_disc_(tilted_disc) {
   auto line = difference.segments[segment].frame;
   const auto planar = [&](const IntervalVector& v) {
     return Planar{dot(v, line.e), dot(v, line.f)};
@@ -139,6 +160,53 @@ LineSearch::LineSearch(const IntervalDifference& difference, const Difference& e
     disc.along = ratio(along, scaled(norm * norm));
     is_flat_ = along == 0;
   }
+}
+
+LineSearch::LineSearch(const IntervalDifference& difference, unsigned edge,
+                       const IntegerVector& direction, const IntervalVector& vertex,
+                       const IntervalVector& from, const IntervalVector& to)
+    : line_(edge), inflation_(0), tilted_disc_(0), is_flat_(direction.z == 0) {
+  // e crosses A's axis z and the edge w, f = w × e: the axis is seen along f.
+  const IntervalVector w = scaled_direction(direction);
+  const Interval across = square_root<Interval>(square(w.x) + square(w.y)), length = norm(w);
+  const Interval sine = across / length, cosine = w.z / length;
+  const IntervalVector e{-w.y / across, w.x / across, 0};
+  const IntervalVector f{-cosine * e.y, cosine * e.x, sine};
+  const auto planar = [&](const IntervalVector& v) { return Planar{dot(v, e), dot(v, f)}; };
+  d_ = planar(difference.d - vertex);
+  segments_.push_back({{0, sine}, difference.segments.front().half_length});
+  discs_.push_back({{0, sine}, cosine, difference.discs.front().radius});
+  arc_ = Arc{planar(from), planar(to)};
+}
+
+// With n = (1, t), turned: t must be left of `from` and right of `to`.
+Piece LineSearch::in_arc(unsigned turn) const {
+  Piece piece{0, turn, -1, 1};
+  const auto cut = [&](const Interval& x, const Interval& y) {  // x t >= y
+    if (x.inf() > 0) {
+      piece.lo = std::max(piece.lo, (y / x).inf());
+    } else if (x.sup() < 0) {
+      piece.hi = std::min(piece.hi, (y / x).sup());
+    } else if (y.inf() > abs(x).sup()) {
+      piece.hi = -2;
+    }
+  };
+  const unsigned back = (4 - turn) % 4;
+  const auto [from_x, from_y] = turned(arc_->from.e, arc_->from.f, back);
+  const auto [to_x, to_y] = turned(arc_->to.e, arc_->to.f, back);
+  cut(from_x, from_y);
+  cut(-to_x, -to_y);
+  if (piece.lo > piece.hi) return piece;
+  // So that an arc between faces that are nearly one is wide enough to have roots isolated in it.
+  constexpr double margin = 0x1p-40;
+  return {0, turn, piece.lo - margin, piece.hi + margin};
+}
+
+bool LineSearch::is_in_arc(const Direction& n) const {
+  const auto is_left = [](const Interval& x, const Interval& y, const Planar& of) {
+    return (of.e * y - of.f * x).inf() >= 0;
+  };
+  return !arc_ || (is_left(n.x, n.y, arc_->from) && is_left(-n.x, -n.y, arc_->to));
 }
 
 LineSearch::Direction LineSearch::direction(const Piece& piece, const Interval& t) {
@@ -197,9 +265,10 @@ LineSearch::Open LineSearch::open_vertices(const Piece& piece, const Open& asked
   }
   if (open.forth == 0 && open.back == 0) return open;
 
-  const OppositeGaps at_middle = gaps(direction(piece, Interval((piece.lo + piece.hi) / 2)));
-  threshold.raise(at_middle.forth);
-  threshold.raise(at_middle.back);
+  const Direction halfway = direction(piece, Interval((piece.lo + piece.hi) / 2));
+  const OppositeGaps at_middle = gaps(halfway);
+  if (is_in_arc(halfway)) threshold.raise(at_middle.forth);
+  if (!arc_) threshold.raise(at_middle.back);
   const OppositeGaps anywhere = gaps(n);
   // Since dφ <= dt, the largest slope of all smooth parts bounds the change of g.
   const Interval half_piece = (Interval(piece.hi) - Interval(piece.lo)) * Interval(0.5);

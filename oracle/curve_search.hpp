@@ -71,14 +71,20 @@ struct IntervalDifference {
 
   /// g(n/|n|) and g(−n/|n|) relative to `scale`; all real numbers if n may be zero.
   OppositeGaps gaps(const IntervalVector& n) const;
+  /// The first of them against one vertex of the hull alone: no smaller than against all of it.
+  Interval gap_of_vertex(const IntervalVector& vertex, const IntervalVector& n) const;
 
-  Integer scale;  ///< in units: the sum of all half lengths, radii and the inflation
+  Integer scale;  ///< in units: the sum of all sizes
   Interval metre;
   IntervalVector d;
   boost::container::static_vector<Segment, max_segments> segments;
   boost::container::static_vector<Disc, max_discs> discs;
   Interval inflation;
+  std::vector<IntervalVector> vertices;  // of the hull
 };
+
+/// Each coordinate within [-1, 1], and one of them about 1: of the vector's direction.
+IntervalVector scaled_direction(const IntegerVector& v);
 
 /// The largest proven gap so far, minus a slack: directions with a smaller gap do not matter.
 class GapThreshold {
@@ -106,13 +112,22 @@ struct Piece {
   double lo, hi;
 };
 
-/// The circle of directions perpendicular to one segment. Decides which of its pieces can contain a
-/// critical direction of the other parts, and at which vertices.
+/// The circle of directions perpendicular to one segment, or the arc of those at which an edge of
+/// a hull is the highest. Decides which of its pieces can contain a critical direction of the other
+/// parts, and at which vertices.
 class LineSearch {
  public:
   /// `tilted_disc`: the disc that is not perpendicular to the segment, if there is one.
   LineSearch(const IntervalDifference& difference, const Difference& exact, unsigned segment,
              std::optional<unsigned> tilted_disc);
+
+  /// An edge of a hull, not parallel to A's axis: its direction, a vertex of it, and the normals of
+  /// its faces, the second counterclockwise of the first about the edge.
+  LineSearch(const IntervalDifference& difference, unsigned edge, const IntegerVector& direction,
+             const IntervalVector& vertex, const IntervalVector& from, const IntervalVector& to);
+
+  /// Which part of a quarter turn can be in the arc: lo > hi if none.
+  Piece in_arc(unsigned turn) const;
 
   /// Bit v is set if at vertex v (one sign for each of the other segments, in order) the gap along
   /// this circle may be stationary somewhere in a piece, or in the opposite one, and reach the
@@ -123,6 +138,8 @@ class LineSearch {
   /// Nothing is open on a side on which nothing of `asked` is. Raises the threshold.
   Open open_vertices(const Piece& piece, const Open& asked, GapThreshold& threshold) const;
 
+  /// The number of the segment or the edge.
+  unsigned line() const { return line_; }
   /// Number of other segments.
   std::size_t others() const { return segments_.size(); }
 
@@ -162,8 +179,10 @@ class LineSearch {
   };
   static Direction direction(const Piece& piece, const Interval& t);
   OppositeGaps gaps(const Direction& n) const;
+  bool is_in_arc(const Direction& n) const;
   void turn_towards(const Difference& exact, unsigned segment);
 
+  unsigned line_;
   Planar d_;
   boost::container::static_vector<Segment, max_segments - 1> segments_;
   boost::container::static_vector<Disc, max_discs> discs_;
@@ -171,6 +190,11 @@ class LineSearch {
   std::optional<unsigned> tilted_disc_;
   double heading_ = 0;
   bool is_flat_ = false;  // the tilted disc's axis is exactly perpendicular to the line
+  /// Of an edge: elsewhere other vertices of the hull are higher, so that gaps prove nothing there.
+  struct Arc {
+    Planar from, to;
+  };
+  std::optional<Arc> arc_;
 };
 
 /// The angles of a point on the first of two rims, at one vertex of the two segments. Decides which

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -107,9 +106,32 @@ struct Lengths {
   void include(const Capsule& s) { scale.include(Vec3(s.radius(), s.half_length(), 0)); }
   void include(const Sphere& s) { scale.include(s.radius()); }
   void include(const Box& s) { scale.include(s.half_extents()); }
-  void include(const Convex&) { throw std::logic_error("convex: later stage"); }
+  void include(const Convex& s) {
+    for (const Vec3& v : s.vertices()) scale.include(v);
+  }
   void include(const Plane& s) { scale.include(s.displacement()); }
 };
+
+/// The vertices in integers of B's frame, from a point in the middle of their box.
+struct LocalHull {
+  IntegerVector middle;
+  std::vector<IntegerVector> vertices;
+};
+
+LocalHull local_hull(const Convex& body, const DyadicScale& length, const Integer& finer) {
+  LocalHull hull;
+  for (const Vec3& v : body.vertices()) hull.vertices.push_back(finer * length(v));
+  const auto halfway = [&](Integer IntegerVector::*coordinate) {
+    const auto [low, high] = std::minmax_element(
+        hull.vertices.begin(), hull.vertices.end(),
+        [&](const auto& a, const auto& b) { return a.*coordinate < b.*coordinate; });
+    return Integer(((*low).*coordinate + (*high).*coordinate) / 2);
+  };
+  hull.middle = {halfway(&IntegerVector::x), halfway(&IntegerVector::y),
+                 halfway(&IntegerVector::z)};
+  for (IntegerVector& v : hull.vertices) v = v - hull.middle;
+  return hull;
+}
 
 }  // namespace
 
@@ -191,8 +213,39 @@ Difference make_difference(const Configuration& c) {
       const Frame edge{axes_b[i], axes_b[(i + 1) % 3], axes_b[(i + 2) % 3]};
       add_segment(difference, edge, size(box->half_extents()[i]));
     }
+  } else if (const auto* body = std::get_if<Convex>(&c.b)) {
+    const auto in_frame = [&](const IntegerVector& v) {
+      return v.x * axes_b[0] + v.y * axes_b[1] + v.z * axes_b[2];
+    };
+    const LocalHull local = local_hull(*body, length, finer);
+    difference.d = difference.d - in_frame(local.middle);
+    difference.hull.emplace(Difference::Hull{{}, *body, 0});
+    for (const IntegerVector& v : local.vertices) {
+      difference.hull->vertices.push_back(in_frame(v));
+      difference.hull->reach =
+          std::max(difference.hull->reach, Integer(abs(v.x) + abs(v.y) + abs(v.z)));
+    }
   }
   return difference;
+}
+
+Integer sum_of_sizes(const Difference& difference) {
+  Integer sum = difference.inflation;
+  for (const auto& s : difference.segments) sum += s.half_length;
+  for (const auto& disc : difference.discs) sum += disc.radius;
+  if (difference.hull) sum += difference.hull->reach;
+  return sum;
+}
+
+IntegerVector face_normal(const Difference::Hull& hull, int face) {
+  const std::vector<int>& on = hull.body.faces()[face].vertices;
+  const IntegerVector& corner = hull.vertices[on[0]];
+  return cross(hull.vertices[on[1]] - corner, hull.vertices[on[2]] - corner);
+}
+
+IntegerVector edge_vector(const Difference::Hull& hull, int edge) {
+  const auto& [from, to] = hull.body.edges()[edge].vertices;
+  return hull.vertices[to] - hull.vertices[from];
 }
 
 IntegerVector in_frame_of_a(const Difference& difference, const Vec3& world) {
@@ -223,12 +276,25 @@ BallDifference::BallDifference(const Difference& difference)
   for (const auto& disc : difference.discs) {
     discs_.push_back({divided(disc.frame.axis), rounded(disc.radius)});
   }
+  if (!difference.hull) return;
+  for (const IntegerVector& v : difference.hull->vertices) vertices_.push_back(divided(v));
 }
 
 BallDifference::Along BallDifference::along(const BallVector& n) const {
   const Ball inverse_length = Ball(1) / norm(n);
-  return {dot(d_, n) * inverse_length,
-          add_half_width(Ball(0), segments_, discs_, n) * inverse_length + inflation_};
+  const Ball distance = dot(d_, n) * inverse_length;
+  Along result{distance, -distance,
+               add_half_width(Ball(0), segments_, discs_, n) * inverse_length + inflation_};
+  if (vertices_.empty()) return result;
+  Ball highest = dot(vertices_.front(), n), lowest = highest;
+  for (const BallVector& v : vertices_) {
+    const Ball height = dot(v, n);
+    if (!arb_lt(height.get(), highest.get())) highest = max(highest, height);
+    if (!arb_gt(height.get(), lowest.get())) lowest = min(lowest, height);
+  }
+  result.centre_distance = distance - highest * inverse_length;
+  result.opposite = lowest * inverse_length - distance;
+  return result;
 }
 
 Ball BallDifference::gap(const BallVector& n) const {

@@ -2,7 +2,9 @@
 
 #include <boost/container/static_vector.hpp>
 #include <gmpxx.h>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "oracle/ball.hpp"
 #include "reference/configuration.hpp"
@@ -27,7 +29,9 @@ inline constexpr std::size_t max_discs = 2;
 /// gap along a unit direction n is
 ///
 ///   g(n) = d·n − Σ half_length |axis·n| − Σ radius |axis × n| − inflation,
-///   d = centre A − centre B.
+///   d = centre A − centre B,
+///
+/// less the largest v·n over the vertices v of a hull, if B is one.
 ///
 /// All vectors are in body A's frame. The doubles of a pose make all directions rational: for a
 /// quaternion q of integers, R(q) |q|² is an integer matrix. Parallel segments and parallel discs
@@ -42,6 +46,13 @@ struct Difference {
     Integer radius;
   };
 
+  /// A convex body, about a point within its box, which stands for the centre of B.
+  struct Hull {
+    std::vector<IntegerVector> vertices;  ///< in units, times norm
+    Convex body;                          ///< whose faces and edges join them
+    Integer reach;                        ///< bound of their distance from that point, in units
+  };
+
   Integer norm;       ///< length of every Frame direction
   Integer per_metre;  ///< units of the integer lengths below
   IntegerVector d;    ///< centre A − centre B, in units, times norm
@@ -49,6 +60,7 @@ struct Difference {
   boost::container::static_vector<Segment, max_segments> segments;
   boost::container::static_vector<Disc, max_discs> discs;
   Integer inflation = 0;
+  std::optional<Hull> hull;
   /// Body B's axes, each of the exact length `norm`; zero for a sphere or a plane.
   IntegerVector axes_b[3];
   /// For a plane: its normal, of any length; the origin of B is then a point of the plane.
@@ -61,6 +73,15 @@ struct Difference {
 };
 
 Difference make_difference(const Configuration& configuration);
+
+/// All half lengths, radii, the inflation and the hull's reach, in units: the half width is nowhere
+/// larger.
+Integer sum_of_sizes(const Difference& difference);
+
+/// The outward normal of a hull's face, of any length.
+IntegerVector face_normal(const Difference::Hull& hull, int face);
+/// From the first vertex of a hull's edge to the second.
+IntegerVector edge_vector(const Difference::Hull& hull, int edge);
 
 /// A world vector of doubles in body A's frame, up to a positive factor.
 IntegerVector in_frame_of_a(const Difference& difference, const Vec3& world);
@@ -121,16 +142,17 @@ class BallDifference {
  public:
   explicit BallDifference(const Difference& difference);
 
-  /// d·n and the half width h(n) = d·n − g(n) along n/|n|, in units; not finite if n may be zero.
+  /// Along n/|n|, in units: g there is centre_distance − half_width, and along −n it is opposite −
+  /// half_width. The half width is that of all but the hull, whose height is taken off the distance
+  /// of the centres. Not finite if n may be zero.
   struct Along {
-    Ball centre_distance, half_width;
+    Ball centre_distance, opposite, half_width;
   };
   Along along(const BallVector& n) const;
 
   /// g(n/|n|), likewise.
   Ball gap(const BallVector& n) const;
 
-  std::size_t segments() const { return segments_.size(); }
   /// The unit axis of a segment.
   const BallVector& axis(std::size_t segment) const { return segments_[segment].axis; }
 
@@ -149,6 +171,7 @@ class BallDifference {
   boost::container::static_vector<Segment, max_segments> segments_;
   boost::container::static_vector<Disc, max_discs> discs_;
   Ball inflation_;
+  std::vector<BallVector> vertices_;
 };
 
 }  // namespace touchstone::oracle

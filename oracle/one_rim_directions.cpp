@@ -13,15 +13,18 @@ namespace {
 /// From the nearest point of a rim (about the origin) to a vertex q: n = q − radius · q⊥/|q⊥|.
 class RimVertexDirection : public CriticalDirection {
  public:
-  RimVertexDirection(IntegerVector q, unsigned signs, const Integer& radius_times_norm,
-                     IntegerVector across)
-      : q_(std::move(q)), signs_(signs), radius_(radius_times_norm), across_(std::move(across)) {}
+  RimVertexDirection(IntegerVector q, std::vector<IntegerVector> inward,
+                     const Integer& radius_times_norm, IntegerVector across)
+      : q_(std::move(q)),
+        inward_(std::move(inward)),
+        radius_(radius_times_norm),
+        across_(std::move(across)) {}
 
   void enclose(const Difference&, const BallDifference& balls,
                std::vector<DirectionBound>& out) override {
     const BallVector n = direction();
     // Outside the rim no direction is zero, although its ball may contain zero at this precision.
-    if (at_vertex(balls, signs_, n) != Certainty::no) out.push_back({balls.gap(n), n});
+    if (at_vertex(inward_, n) != Certainty::no) out.push_back({balls.gap(n), n});
   }
 
   // |n| = inflation, that is |q|² + radius² − inflation² = 2 radius |q⊥|.
@@ -33,9 +36,8 @@ class RimVertexDirection : public CriticalDirection {
                         4 * radius_ * radius_ * dot(across_, across_)) {
       return ZeroGap::unknown;
     }
-    return at_vertex(BallDifference(difference), signs_, direction()) == Certainty::yes
-               ? ZeroGap::zero
-               : ZeroGap::at_most_zero;
+    return at_vertex(inward_, direction()) == Certainty::yes ? ZeroGap::zero
+                                                             : ZeroGap::at_most_zero;
   }
 
   // n·v = q·v − radius (across·v) / |across|
@@ -51,7 +53,7 @@ class RimVertexDirection : public CriticalDirection {
   }
 
   IntegerVector q_;
-  unsigned signs_;
+  std::vector<IntegerVector> inward_;
   Integer radius_;
   IntegerVector across_;  // norm² q⊥, not zero
 };
@@ -65,6 +67,9 @@ class RimVertexDirection : public CriticalDirection {
 // axis u and the reduced point q, the gap is stationary where
 //
 //   (q·n')² (n·n − (u·n)²) = radius² (u·n)² (u·n')².
+//
+// The length of a hull's edge is irrational, so that no e and f of rational coordinates have one
+// length. The polynomial is then that of t |e|/|f|, with n' = |e|² f − t |f|² e.
 
 /// The frame with e and f turned by that many quarter turns about its axis: the first takes e to f
 /// and f to −e.
@@ -77,15 +82,22 @@ Frame turned(const Frame& frame, unsigned quarters) {
 struct Profile {
   /// Whose roots are the critical directions of both branches.
   Polynomial polynomial() const;
-  /// Times norm² stretch.
+  /// Times norm |f|.
   LineSlope<Ball> slope(int branch) const;
-  /// (norm² stretch)² n·n
-  Polynomial length_squared() const;
+  /// norm² n·n
+  Polynomial length_squared() const {
+    return {Integer(norm * norm * e_squared), 0, Integer(norm * norm * f_squared)};
+  }
+  /// |f|/|e|, unless it is 1.
+  std::optional<Ball> stretch() const {
+    if (e_squared == f_squared) return std::nullopt;
+    return root_of_ratio(f_squared, e_squared);
+  }
 
   Integer norm;
-  Integer stretch;  ///< e and f of the line's frame have the length norm · stretch
-  Frame line;
-  unsigned segment, signs;
+  Frame line;  ///< whose directions may have any length
+  Integer e_squared, f_squared;
+  std::vector<IntegerVector> inward;
   IntegerVector q;
   Frame disc;
   Integer radius;
@@ -93,18 +105,21 @@ struct Profile {
 
   /// v·n as a polynomial in t.
   Polynomial along(const IntegerVector& v) const { return {dot(v, line.e), dot(v, line.f)}; }
+  /// v·n'
   Polynomial across(const IntegerVector& v) const {
-    return {dot(v, line.f), Integer(-dot(v, line.e))};
+    if (e_squared == f_squared) return {dot(v, line.f), Integer(-dot(v, line.e))};
+    return {Integer(e_squared * dot(v, line.f)), Integer(-f_squared * dot(v, line.e))};
+  }
+
+ private:
+  static Ball root_of_ratio(const Integer& a, const Integer& b) {
+    if (a == b) return 1;
+    const long bits = WorkingPrecision::bits();
+    return sqrt(Ball(a, bits) / Ball(b, bits));
   }
 };
 
-Polynomial Profile::length_squared() const {
-  const Integer length = norm * norm * stretch;
-  const Integer squared = length * length;
-  return {squared, 0, squared};
-}
-
-// Scale factors: q·n and u·n by norm² stretch, both sides by its fourth power.
+// Scale factors: q and u by norm, and so both sides by its fourth power.
 Polynomial Profile::polynomial() const {
   const Polynomial q_slope = across(q);
   const Polynomial u_n = along(disc.axis);
@@ -116,12 +131,15 @@ Polynomial Profile::polynomial() const {
 
 LineSlope<Ball> Profile::slope(int branch) const {
   const auto ball = [](const Integer& x) { return Ball(x, WorkingPrecision::bits()); };
-  const Integer across_line = stretch * dot(disc.axis, line.axis);
-  return {{ball(dot(q, line.f)), ball(-dot(q, line.e))},
-          {ball(dot(disc.axis, line.f)), ball(-dot(disc.axis, line.e))},
-          ball(across_line),
-          ball(branch * radius),
-          across_line == 0};
+  const std::optional<Ball> longer = stretch();
+  const auto harmonic = [&](const IntegerVector& v) {
+    const Ball sine = ball(-dot(v, line.e));
+    return Harmonic<Ball>{ball(dot(v, line.f)), longer ? *longer * sine : sine};
+  };
+  const Integer along_line = dot(disc.axis, line.axis);
+  return {harmonic(q), harmonic(disc.axis),
+          ball(along_line) * root_of_ratio(f_squared, dot(line.axis, line.axis)),
+          ball(branch * radius), along_line == 0};
 }
 
 class RimLineDirection : public CriticalDirection {
@@ -131,22 +149,20 @@ class RimLineDirection : public CriticalDirection {
   void enclose(const Difference&, const BallDifference& balls,
                std::vector<DirectionBound>& out) override {
     const BallVector n = direction();
-    if (at_vertex(balls, profile_.signs, n, profile_.segment) == Certainty::no) return;
+    if (at_vertex(profile_.inward, n) == Certainty::no) return;
     out.push_back({balls.gap(n), n});
   }
 
-  // q·n − radius |u × n| − flat |n|, times norm² stretch.
-  ZeroGap zero_gap(const Difference& difference) override {
+  // q·n − radius |u × n| − flat |n|, times norm.
+  ZeroGap zero_gap(const Difference&) override {
     const Polynomial a = profile_.along(profile_.q);
     const Polynomial u_n = profile_.along(profile_.disc.axis);
     const Polynomial n_n = profile_.length_squared();
     const Polynomial b = Integer(profile_.radius * profile_.radius) * (n_n - u_n * u_n);
     const Polynomial c = Integer(profile_.flat * profile_.flat) * n_n;
     if (!is_zero_here(a, b, c)) return ZeroGap::unknown;
-    const BallDifference balls(difference);
-    return at_vertex(balls, profile_.signs, direction(), profile_.segment) == Certainty::yes
-               ? ZeroGap::zero
-               : ZeroGap::at_most_zero;
+    return at_vertex(profile_.inward, direction()) == Certainty::yes ? ZeroGap::zero
+                                                                     : ZeroGap::at_most_zero;
   }
 
   bool is_across(const IntegerVector& v) override {
@@ -182,24 +198,29 @@ void append_disc_axis(const Difference& difference, const CriticalSite& site,
   out.push_back(rational_direction(difference.discs[site.first].frame.axis));
 }
 
+void append_face(const Difference& difference, const CriticalSite& site, CriticalDirections& out) {
+  out.push_back(single_direction(face_normal(*difference.hull, static_cast<int>(site.first))));
+}
+
 void append_crossing(const Difference& difference, const CriticalSite& site,
                      CriticalDirections& out) {
-  out.push_back(rational_direction(cross(difference.segments[site.first].frame.axis,
-                                         difference.segments[site.second].frame.axis)));
+  const IntegerVector other = difference.hull
+                                  ? edge_vector(*difference.hull, static_cast<int>(site.second))
+                                  : difference.segments[site.second].frame.axis;
+  out.push_back(rational_direction(cross(difference.segments[site.first].frame.axis, other)));
 }
 
 void append_radial(const Difference& difference, const CriticalSite& site,
                    CriticalDirections& out) {
   const auto& segment = difference.segments[site.first];
-  const IntegerVector n = off_axis(reduced_point(difference, site.signs, &segment), segment.frame);
+  const IntegerVector n = off_axis(reduced_point(difference, site), segment.frame);
   if (!is_zero(n)) {
     out.push_back(rational_direction(n));
     return;
   }
   // The vertex lies on the axis: all radial directions of its sector have the same gap. The sector
   // may be a single direction, or empty.
-  DirectionFamily family =
-      sector(segment.frame.axis, signed_axes(difference, site.signs, &segment));
+  DirectionFamily family = sector(segment.frame.axis, inward(difference, site));
   if (family.kind == NormalFamily::Kind::circle) {
     out.push_back(rational_direction(segment.frame.e, std::move(family)));
   } else if (!family.ends.empty()) {
@@ -212,37 +233,62 @@ void append_rim_vertex(const Difference& difference, const CriticalSite& site,
                        CriticalDirections& out) {
   const auto& disc = difference.discs.front();
   const Integer radius = disc.radius * difference.norm;
-  const IntegerVector q = reduced_point(difference, site.signs);
+  const IntegerVector q = reduced_point(difference, site);
   IntegerVector across = off_axis(q, disc.frame);
   // across is norm² q⊥.
   const Integer reach = difference.norm * difference.norm * radius;
   const int beyond = cmp(dot(across, across), reach * reach);
   if (beyond == 0 && dot(q, disc.frame.axis) == 0) {
     // The vertex lies on the rim: all normals of that rim point have the gap −inflation.
-    std::vector<IntegerVector> inward = signed_axes(difference, site.signs);
-    inward.push_back(across);
-    DirectionFamily arc = sector(cross(disc.frame.axis, across), inward);
+    std::vector<IntegerVector> sides = inward(difference, site);
+    sides.push_back(across);
+    DirectionFamily arc = sector(cross(disc.frame.axis, across), sides);
     if (arc.ends.empty()) return;
     const IntegerVector end = arc.ends.front();
     out.push_back(rational_direction(end, std::move(arc)));
   }
   // Only a vertex outside the rim is a separate maximum.
   if (beyond <= 0) return;
-  out.push_back(std::make_unique<RimVertexDirection>(q, site.signs, radius, std::move(across)));
+  out.push_back(
+      std::make_unique<RimVertexDirection>(q, inward(difference, site), radius, std::move(across)));
 }
 
-void append_rim_line(const Difference& difference, const CriticalSite& site,
-                     CriticalDirections& out) {
-  const auto& segment = difference.segments[site.first];
+namespace {
+
+/// The line's frame before it is turned by quarters.
+Frame line_frame(const Difference& difference, const CriticalSite& site) {
+  if (!difference.hull) {
+    return turned_frame(difference.segments[site.first].frame, site.heading).frame;
+  }
+  // e crosses A's axis and the edge, so that A's disc is seen along f.
+  const IntegerVector edge = edge_vector(*difference.hull, static_cast<int>(site.first));
+  const IntegerVector e{-edge.y, edge.x, 0};
+  return {edge, e, cross(edge, e)};
+}
+
+Profile profile_at(const Difference& difference, const CriticalSite& site) {
   const auto& disc = difference.discs[site.second];
   Integer flat = difference.inflation;
   for (const auto& other : difference.discs) {
     if (&other != &disc) flat += other.radius;
   }
-  const TurnedFrame frame = turned_frame(segment.frame, site.heading);
-  Profile profile{difference.norm, frame.stretch, turned(frame.frame, site.turn),
-                  site.first,      site.signs,    reduced_point(difference, site.signs, &segment),
-                  disc.frame,      disc.radius,   std::move(flat)};
+  const Frame line = turned(line_frame(difference, site), site.turn);
+  return {difference.norm,
+          line,
+          dot(line.e, line.e),
+          dot(line.f, line.f),
+          inward(difference, site),
+          reduced_point(difference, site),
+          disc.frame,
+          disc.radius,
+          std::move(flat)};
+}
+
+}  // namespace
+
+void append_rim_line(const Difference& difference, const CriticalSite& site,
+                     CriticalDirections& out) {
+  Profile profile = profile_at(difference, site);
   if (site.branch != 0) {
     const SlopeBracket bracket{site.lo, site.hi, site.branch, site.rising};
     out.push_back(std::make_unique<RimLineDirection>(std::move(profile), CurveRoot(bracket)));
@@ -253,16 +299,23 @@ void append_rim_line(const Difference& difference, const CriticalSite& site,
     // The line lies in the disc's plane, and the end of the projected disc coincides with the
     // reduced point (or its mirror image does): the gap is constant over all directions of that
     // end's normal cone.
-    std::vector<IntegerVector> inward = signed_axes(difference, site.signs, &segment);
-    inward.push_back(off_axis(profile.q, profile.line));
-    DirectionFamily arc = sector(profile.line.axis, inward);
+    const auto& [axis, e, f] = profile.line;
+    std::vector<IntegerVector> sides = profile.inward;
+    sides.push_back(Integer(profile.f_squared * dot(profile.q, e)) * e +
+                    Integer(profile.e_squared * dot(profile.q, f)) * f);
+    DirectionFamily arc = sector(axis, sides);
     if (!arc.ends.empty()) {
       const IntegerVector end = arc.ends.front();
       out.push_back(rational_direction(end, std::move(arc)));
     }
     return;
   }
-  for (auto& root : real_roots(quartic, mpq_class(site.lo), mpq_class(site.hi))) {
+  mpq_class lo(site.lo), hi(site.hi);
+  if (const auto stretch = profile.stretch()) {
+    lo = (Ball(lo) / *stretch).lower();
+    hi = (Ball(hi) / *stretch).upper();
+  }
+  for (auto& root : real_roots(quartic, lo, hi)) {
     out.push_back(std::make_unique<RimLineDirection>(profile, std::move(root)));
   }
 }

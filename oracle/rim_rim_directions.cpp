@@ -12,6 +12,7 @@
 // follows from y·t1 = w·t1, which every stationary pair satisfies.
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <utility>
 
 #include "oracle/critical_direction.hpp"
@@ -28,6 +29,7 @@ struct RimPair {
   Polynomial polynomial() const;
   /// Times norm².
   RimSlope<Ball> slope(int branch) const;
+  static std::optional<Ball> stretch() { return std::nullopt; }
   /// norm² w·u2 and norm² |w|², of rim 1's point relative to rim 2's centre.
   Polynomial height() const;
   Polynomial distance_squared() const;
@@ -274,7 +276,7 @@ void append_rim_rim(const Difference& difference, const CriticalSite& site,
                     CriticalDirections& out) {
   // With two discs the segments are exactly two, with the same axes.
   const auto& [disc1, disc2] = std::pair(difference.discs[0], difference.discs[1]);
-  RimPair rims{disc1.frame,  disc2.frame,  reduced_point(difference, site.signs),
+  RimPair rims{disc1.frame,  disc2.frame,  reduced_point(difference, site),
                disc1.radius, disc2.radius, difference.norm,
                site.signs};
   if (site.turn == 1) {

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 #include <utility>
 #include <variant>
+#include <vector>
+
+#include "oracle/hull.hpp"
+#include "reference/invalid_input.hpp"
 
 namespace touchstone::oracle {
 namespace {
@@ -51,10 +54,38 @@ struct Reach {
     const Vec3& h = s.half_extents();
     return mpq_class(h.x()) + mpq_class(h.y()) + mpq_class(h.z());
   }
-  mpq_class operator()(const Convex&) const { throw std::logic_error("convex: later stage"); }
+  mpq_class operator()(const Convex& s) const {
+    Vec3 farthest = Vec3::Zero();
+    for (const Vec3& v : s.vertices()) farthest = farthest.cwiseMax(v.cwiseAbs());
+    return mpq_class(farthest.x()) + mpq_class(farthest.y()) + mpq_class(farthest.z());
+  }
   mpq_class operator()(const Sphere&) const { return 0; }
   mpq_class operator()(const Plane&) const { return 0; }
 };
+
+/// The hull of rounded vertices, if it has as many: of thin ones rounding may make a line. Adds to
+/// `error` how far a vertex moves at most.
+Convex rounded(const Convex& body, const Grid& lengths, mpq_class& error) {
+  std::vector<Vec3> vertices;
+  mpq_class farthest = 0;
+  for (const Vec3& v : body.vertices()) {
+    const Vec3& to = vertices.emplace_back(lengths.nearest(v));
+    if (to == v) continue;
+    mpq_class moved = 0;
+    for (int i = 0; i < 3; ++i) moved += change(v[i], to[i]);
+    farthest = std::max(farthest, moved);
+  }
+  if (farthest == 0) return exact_hull(body);
+  try {
+    Convex hull = convex_hull(vertices);
+    if (hull.vertices().size() == body.vertices().size()) {
+      error += farthest;
+      return hull;
+    }
+  } catch (const InvalidInput&) {  // on one line
+  }
+  return exact_hull(body);
+}
 
 /// Rounds an orientation and adds to `error` a bound of how far that moves a point at distance
 /// `reach`.
@@ -85,7 +116,8 @@ RoundedConfiguration rounded_configuration(const Configuration& c, int bits) {
     return rounded;
   }};
   const Cylinder a = round_shape(c.a);
-  const Shape b = round_shape(c.b);
+  const auto* const body = std::get_if<Convex>(&c.b);
+  const Shape b = body ? rounded(*body, lengths, error) : round_shape(c.b);
 
   const Vec3 &from_a = c.pose_a.position(), &from_b = c.pose_b.position();
   const Vec3 to_a = lengths.nearest(from_a), to_b = lengths.nearest(from_b);
@@ -104,13 +136,6 @@ RoundedConfiguration rounded_configuration(const Configuration& c, int bits) {
 
 namespace {
 
-Integer sum_of_sizes(const Difference& difference) {
-  Integer sum = difference.inflation;
-  for (const auto& s : difference.segments) sum += s.half_length;
-  for (const auto& disc : difference.discs) sum += disc.radius;
-  return sum;
-}
-
 /// Shifts right by `bits`, rounding towards zero.
 Integer shifted(const Integer& x, long bits) {
   Integer result;
@@ -121,7 +146,8 @@ Integer shifted(const Integer& x, long bits) {
 }  // namespace
 
 std::optional<FarBodies> FarBodies::brought_nearer(Difference& difference, int bits) {
-  if (difference.is_plane || difference.segments.size() == 1) return std::nullopt;
+  const bool makes_polynomials = difference.segments.size() > 1 || difference.hull;
+  if (difference.is_plane || !makes_polynomials) return std::nullopt;
   const Integer size = sum_of_sizes(difference);
   const IntegerVector& d = difference.d;
   const long excess = std::max({bits_of(d.x), bits_of(d.y), bits_of(d.z)}) -

@@ -29,7 +29,9 @@ inline constexpr int kept_bits = 192;
 /// the centres and in every size; a rotation of quaternion q to that of q' moves no point by more
 /// than 2 |q' − q| / |q| times its distance from the centre, as sin(angle/2) <= |q' − q| / |q|.
 ///
-/// Against a plane or a sphere no polynomial arises, and nothing is rounded.
+/// Against a plane or a sphere no polynomial arises, and nothing is rounded. A convex body is the
+/// hull of its rounded vertices, and keeps their number: where rounding would merge some, or put
+/// them on one line, none of its vertices is rounded.
 RoundedConfiguration rounded_configuration(const Configuration& configuration,
                                            int bits = kept_bits);
 
@@ -67,7 +69,7 @@ Resized(Size) -> Resized<Size>;  // clang 14 finds none by itself
 class FarBodies {
  public:
   /// Moves the bodies of the difference closer together. None if they are near already, or if there
-  /// is only one segment, so that no polynomial arises.
+  /// is only one segment and no hull, so that no polynomial arises.
   static std::optional<FarBodies> brought_nearer(Difference& difference, int bits);
 
   /// True signed distance minus that of the moved bodies, in units.

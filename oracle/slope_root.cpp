@@ -6,14 +6,13 @@
 
 namespace touchstone::oracle {
 
-bool CurveRoot::may_be(const mpz_class& numerator, const mpz_class& denominator) const {
+bool CurveRoot::may_be(const Ball& root, const mpz_class& numerator, const mpz_class& denominator) {
   const long bits = WorkingPrecision::bits();
-  return !of_slope_ ||
-         (of_slope_->ball() * Ball(denominator, bits) - Ball(numerator, bits)).contains_zero();
+  return (root * Ball(denominator, bits) - Ball(numerator, bits)).contains_zero();
 }
 
-bool CurveRoot::take_only_root(const Polynomial& polynomial) {
-  const mpq_class lo = of_slope_->lo().rational(), hi = of_slope_->hi().rational();
+bool CurveRoot::take_only_root(const Polynomial& polynomial, const mpq_class& lo,
+                               const mpq_class& hi) {
   if (lo == hi) {
     exact_.emplace(square_free(polynomial), lo, hi);
     return true;

@@ -229,6 +229,8 @@ class SlopeOfParameter : public BallFunction {
 ///
 ///   Polynomial polynomial() const;
 ///   LineSlope<Ball> or RimSlope<Ball> slope(int branch) const;  // at the working precision
+///   std::optional<Ball> stretch() const;  // of the slope's parameter over the polynomial's, if
+///   not 1
 class CurveRoot {
  public:
   CurveRoot(RealRoot root) : exact_(std::move(root)) {}
@@ -239,20 +241,20 @@ class CurveRoot {
   /// The sign of κ; 0 for a root of the polynomial, which may belong to either branch.
   int branch() const { return branch_; }
 
-  /// A ball of width at most 2^(RootBracket::spare_bits − bits) that contains the root; `bits` is
-  /// the working precision.
+  /// A ball of width at most 2^(RootBracket::spare_bits − bits), times what the parameter is
+  /// stretched by, that contains the polynomial's root; `bits` is the working precision.
   template <class Curve>
   Ball enclose(const Curve& curve) {
     if (!of_slope_) return exact_->enclose();
     of_slope_->narrow(WorkingPrecision::bits() - RootBracket::spare_bits,
                       [&] { return SlopeOfParameter(curve.slope(branch_)); });
-    return of_slope_->ball();
+    return known(curve);
   }
 
   /// Is the root exactly numerator / denominator?
   template <class Curve>
   bool is(const Curve& curve, const mpz_class& numerator, const mpz_class& denominator) {
-    if (!may_be(numerator, denominator)) return false;
+    if (of_slope_ && !may_be(known(curve), numerator, denominator)) return false;
     mpq_class number(numerator, denominator);
     number.canonicalize();
     return exact(curve).is(number);
@@ -264,6 +266,12 @@ class CurveRoot {
   }
 
  private:
+  /// The bracket of the slope's root, of the polynomial's parameter.
+  template <class Curve>
+  Ball known(const Curve& curve) const {
+    const std::optional<Ball> stretch = curve.stretch();
+    return stretch ? of_slope_->ball() / *stretch : of_slope_->ball();
+  }
   /// The root as one of the curve's polynomial.
   template <class Curve>
   RealRoot& exact(const Curve& curve) {
@@ -272,12 +280,17 @@ class CurveRoot {
     for (long bits = 2 * WorkingPrecision::bits();; bits *= 2) {
       const WorkingPrecision precision(bits);
       enclose(curve);
-      if (take_only_root(polynomial)) return *exact_;
+      const bool is_stretched = curve.stretch().has_value();
+      const bool is_alone =
+          is_stretched
+              ? take_only_root(polynomial, known(curve).lower(), known(curve).upper())
+              : take_only_root(polynomial, of_slope_->lo().rational(), of_slope_->hi().rational());
+      if (is_alone) return *exact_;
     }
   }
 
-  bool may_be(const mpz_class& numerator, const mpz_class& denominator) const;
-  bool take_only_root(const Polynomial& polynomial);
+  static bool may_be(const Ball& root, const mpz_class& numerator, const mpz_class& denominator);
+  bool take_only_root(const Polynomial& polynomial, const mpq_class& lo, const mpq_class& hi);
 
   int branch_ = 0;
   std::optional<RootBracket> of_slope_;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -263,7 +264,12 @@ TEST(TurnedFrame, StaysOrthogonalAndOfEqualLengths) {
 struct MadeUpCurve {
   Polynomial given;
   double y = 1, factor = 0;
+  int stretch_squared = 1;
 
+  std::optional<Ball> stretch() const {
+    if (stretch_squared == 1) return std::nullopt;
+    return sqrt(Ball(stretch_squared));
+  }
   Polynomial polynomial() const { return given; }
   LineSlope<Ball> slope(int branch) const {
     const auto ball = [](double x) { return Ball(mpq_class(x)); };
@@ -298,6 +304,21 @@ TEST(CurveRoot, IsDecidedByThePolynomialAlone) {
     EXPECT_FALSE(made().is_root_of(curve, other));
     EXPECT_TRUE(made().is_root_of(curve, {0}));
   }
+}
+
+TEST(CurveRoot, OfAStretchedParameterIsThePolynomialsRoot) {
+  // √2 times the root is 1/3. The other polynomial's root is 2^-150 away.
+  const mpz_class big = mpz_class(1) << 150U;
+  const Polynomial own{-1, 0, 18}, other{-big - 1, 0, 18 * big};
+  const MadeUpCurve curve{own * other, 1, 0, 2};
+  CurveRoot root(SlopeBracket{-1, 1, 1, false});
+  const WorkingPrecision precision(256);
+  const Ball t = root.enclose(curve);
+  EXPECT_TRUE((Ball(18) * square(t) - Ball(1)).contains_zero());
+  EXPECT_LT(t.upper() - t.lower(), 0x1p-200);
+  EXPECT_TRUE(root.is_root_of(curve, own));
+  EXPECT_FALSE(root.is_root_of(curve, other));
+  EXPECT_FALSE(root.is(curve, 1, 3));
 }
 
 TEST(CurveRoot, AMultipleRootOfThePolynomialIsRecognised) {

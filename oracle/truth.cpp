@@ -140,10 +140,46 @@ Alignment alignment(CriticalDirection& direction, const IntegerVector& axis, con
   return Alignment::oblique;
 }
 
+/// The vertices of a hull that are the highest along the direction, of which n is the ball: exactly
+/// as high as one that no other is above.
+std::vector<int> hull_support(const Difference::Hull& hull, CriticalDirection& direction,
+                              const BallVector& n) {
+  const auto& vertices = hull.vertices;
+  std::vector<Ball> heights;
+  for (const IntegerVector& v : vertices) heights.push_back(dot(to_balls(v), n));
+  const auto highest =
+      std::max_element(heights.begin(), heights.end(), [](const Ball& a, const Ball& b) {
+        return arf_cmp(arb_midref(a.get()), arb_midref(b.get())) < 0;
+      });
+  std::vector<int> result;
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    const auto top = static_cast<std::size_t>(highest - heights.begin());
+    const bool may_be = i == top || !arb_lt(heights[i].get(), highest->get());
+    if (may_be && direction.is_across(vertices[i] - vertices[top])) {
+      result.push_back(static_cast<int>(i));
+    }
+  }
+  return result;
+}
+
+/// The same vertices of the body as given: there may be others in it that are no corners.
+std::vector<int> indices_in(const Convex& given, const Convex& exact, std::vector<int> vertices) {
+  if (given.vertices().size() == exact.vertices().size()) return vertices;
+  for (int& v : vertices) {
+    const auto& all = given.vertices();
+    v = static_cast<int>(std::find(all.begin(), all.end(), exact.vertices()[v]) - all.begin());
+  }
+  return vertices;
+}
+
 OptimalNormal optimal_normal(const Difference& difference, const Shape& b,
-                             CriticalDirection& direction, const Vec3& n) {
+                             CriticalDirection& direction, const Vec3& n, const BallVector& exact) {
   OptimalNormal result;
   result.n = n;
+  if (const auto* const body = std::get_if<Convex>(&b)) {
+    result.support_b =
+        indices_in(*body, difference.hull->body, hull_support(*difference.hull, direction, exact));
+  }
   result.to_a = alignment(direction, {0, 0, 1}, {1, 0, 0}, {0, 1, 0});
   const auto& axes = difference.axes_b;
   const auto to_b = [&](int i) {
@@ -165,6 +201,13 @@ NormalFamily in_world(const Difference& difference, const DirectionFamily& famil
   return result;
 }
 
+/// Both ends of an edge have the same arc across it.
+bool is_same_family(const NormalFamily& a, const NormalFamily& b) {
+  const auto near = [](const Vec3& x, const Vec3& y) { return (x - y).norm() < same_normal; };
+  return a.kind == b.kind && near(a.axis, b.axis) &&
+         std::equal(a.ends.begin(), a.ends.end(), b.ends.begin(), b.ends.end(), near);
+}
+
 /// The arc between the two directions with the largest angle.
 NormalFamily arc_between(const std::vector<OptimalNormal>& normals) {
   NormalFamily arc{NormalFamily::Kind::arc, Vec3::Zero(), {normals[0].n, normals[1].n}};
@@ -182,9 +225,13 @@ NormalFamily arc_between(const std::vector<OptimalNormal>& normals) {
 void set_normals(const Difference& difference, const Shape& b,
                  const std::vector<Survivor>& survivors, Truth& truth) {
   for (const auto& [direction, bounds] : survivors) {
-    const auto family = direction->family();
-    if (family && (family->kind != NormalFamily::Kind::curve || truth.families.empty())) {
-      truth.families.push_back(in_world(difference, *family));
+    if (const auto exact = direction->family()) {
+      const NormalFamily family = in_world(difference, *exact);
+      const bool known =
+          std::any_of(truth.families.begin(), truth.families.end(),
+                      [&](const NormalFamily& f) { return is_same_family(f, family); });
+      const bool is_needed = family.kind != NormalFamily::Kind::curve || truth.families.empty();
+      if (is_needed && !known) truth.families.push_back(family);
     }
     for (const auto& bound : bounds) {
       if (!bound.normal) continue;
@@ -192,7 +239,9 @@ void set_normals(const Difference& difference, const Shape& b,
       const bool known =
           std::any_of(truth.normals.begin(), truth.normals.end(),
                       [&](const OptimalNormal& m) { return (m.n - n).norm() < same_normal; });
-      if (!known) truth.normals.push_back(optimal_normal(difference, b, *direction, n));
+      if (!known) {
+        truth.normals.push_back(optimal_normal(difference, b, *direction, n, *bound.normal));
+      }
     }
   }
   // As a function of vectors of any length g is concave and homogeneous, so that two normals of gap
@@ -210,6 +259,8 @@ void append_directions(const Difference& difference, const CriticalSite& site,
   switch (site.kind) {
     case CriticalSite::Kind::disc_axis:
       return append_disc_axis(difference, site, out);
+    case CriticalSite::Kind::face:
+      return append_face(difference, site, out);
     case CriticalSite::Kind::crossing:
       return append_crossing(difference, site, out);
     case CriticalSite::Kind::radial:
@@ -226,7 +277,7 @@ void append_directions(const Difference& difference, const CriticalSite& site,
 std::vector<Survivor> all_directions(const Difference& difference, double slack) {
   CriticalDirections directions;
   if (difference.is_plane) {
-    directions.push_back(plane_direction(difference));
+    directions.push_back(single_direction(difference.plane_normal));
   } else {
     for (const auto& site : critical_sites(difference, slack)) {
       append_directions(difference, site, directions);
@@ -320,7 +371,7 @@ std::optional<Truth> truth_of(const RoundedConfiguration& question, const Reques
 
     Truth result{*signed_distance, {}, Ties::unique, {}};
     drop_below(survivors, *best.lo - tie);
-    set_normals(difference, question.configuration.b, survivors, result);
+    set_normals(difference, wanted.configuration.b, survivors, result);
     return result;
   }
   throw std::logic_error("oracle: the signed distance could not be enclosed");

@@ -19,9 +19,12 @@ enum class Alignment { oblique, parallel, perpendicular };
 struct OptimalNormal {
   Vec3 n;  ///< unit, from B to A, in world coordinates, to within a few ulp
   /// Relation to body A's axis, and to body B's x, y and z axes. A shape of revolution has only z;
-  /// all others, and those of planes and spheres, stay oblique.
+  /// all others, and those of planes, spheres and convex bodies, stay oblique.
   Alignment to_a = Alignment::oblique;
   std::array<Alignment, 3> to_b{};
+  /// The vertices of a convex body B that lie exactly on its support plane along n, in the order of
+  /// their numbers. Empty for other shapes.
+  std::vector<int> support_b = {};
 };
 
 /// A continuous family of optimal normals. World coordinates, unit vectors.
@@ -61,11 +64,11 @@ struct Truth {
 /// within max(2^-20 `width`, `tie`) times the larger size of the signed distance. Gaps are refined
 /// until every tie is decided, so that ties too depend on the geometry alone.
 ///
-/// Against a capsule, cylinder or box, lengths are rounded to multiples of 2^-192 of the larger
-/// size and orientations to as many bits (rounding.hpp); a narrower `width` keeps more. The
-/// enclosure is valid for the exact configuration; normals, ties and alignments are those of the
-/// rounded one, and bodies that touch to within 2^-184 of the size have zero in their enclosure.
-/// This bounds the time for any finite numbers to about 50 ms at the width 1e-30.
+/// Against a capsule, cylinder, box or convex body, lengths are rounded to multiples of 2^-192 of
+/// the larger size and orientations to as many bits (rounding.hpp); a narrower `width` keeps more.
+/// The enclosure is valid for the exact configuration; normals, ties and alignments are those of
+/// the rounded one, and bodies that touch to within 2^-184 of the size have zero in their
+/// enclosure. This bounds the time for any finite numbers to about 50 ms at the width 1e-30.
 ///
 /// Throws InvalidInput unless 0 < width; std::logic_error if its own bounds contradict each other.
 Truth truth(const Configuration& configuration, double width = 1e-30, double tie = 0);
