@@ -263,6 +263,20 @@ TEST(ConvexTruth, KnowsTheAlignmentToTheCylinder) {
             Alignment::oblique);
 }
 
+// On the axis, this corner of the polygon has only the faces' normals across the axis: the polygon
+// lies on both sides of it.
+TEST(ConvexTruth, OfAPolygonAcrossTheAxisHasNoHalfCircleOfNormals) {
+  const Configuration c{Cylinder(1, 3), Pose(), hull({{0, 0, 0}, {4, 0, 2}, {-4, 0, 2}}), Pose()};
+  const Truth t = truth(c);
+  EXPECT_EQ(t.normals.size(), 2u);
+  EXPECT_EQ(t.ties, Ties::finite);
+  // On one side of it there is one.
+  const Truth half = truth({Cylinder(1, 3), Pose(), hull({{0, 0, 0}, {4, 0, 2}, {4, 0, -2}}), Pose()});
+  ASSERT_EQ(half.families.size(), 1u);
+  const NormalFamily& arc = half.families[0];
+  EXPECT_LT((arc.axis.cross(arc.ends.at(0)) - Vec3(-1, 0, 0)).norm(), 1e-15);
+}
+
 /// The largest gap that is found in double: from random directions, and steps from the best.
 double largest_gap_found(const Configuration& c, std::mt19937& random) {
   std::normal_distribution<double> normal;

@@ -154,7 +154,12 @@ DirectionFamily sector(const IntegerVector& line, const std::vector<IntegerVecto
   }
   if (arc.ends.size() != 2) return {NormalFamily::Kind::arc, line, {}};
   const int turn = sgn(dot(cross(arc.ends[0], arc.ends[1]), line));
-  const bool forth = turn == 0 ? inside(cross(line, arc.ends[0])) : turn > 0;
+  const IntegerVector middle = cross(line, arc.ends[0]);  // if the ends are opposite
+  if (turn == 0 && !inside(middle) && !inside(-middle)) {
+    // Of a polygon in space only the faces' normals: to each side of the line there is a neighbour.
+    return {NormalFamily::Kind::arc, line, {}};
+  }
+  const bool forth = turn == 0 ? inside(middle) : turn > 0;
   if (!forth) std::swap(arc.ends[0], arc.ends[1]);
   return arc;
 }
