@@ -223,7 +223,8 @@ void Search::search_edges(const std::vector<IntervalVector>& normals) {
     if (along.x == 0 && along.y == 0) continue;  // the radial directions of its vertices
     const IntervalVector& vertex = difference_.vertices[edge.vertices[0]];
     const auto curve_of_edge = static_cast<unsigned>(lines_.size());
-    const LineSearch& line = lines_.emplace_back(difference_, i, along, vertex,
+    const LineSearch& line = lines_.emplace_back(difference_, exact_, i, along,
+                                                 exact_.d - hull.vertices[edge.vertices[0]],
                                                  normals[edge.faces[0]], normals[edge.faces[1]]);
     const IntervalVector crossing = scaled_direction({-along.y, along.x, 0});
     for (unsigned turn = 0; turn < 4; ++turn) {

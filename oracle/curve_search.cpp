@@ -53,10 +53,14 @@ IntervalDifference::IntervalFrame unit(const Frame& frame, const ScaledInterval&
   return {ratio(frame.axis, norm), ratio(frame.e, norm), ratio(frame.f, norm)};
 }
 
+Integer largest_coordinate(const IntegerVector& v) {
+  return std::max({Integer(abs(v.x)), Integer(abs(v.y)), Integer(abs(v.z))});
+}
+
 }  // namespace
 
 IntervalVector scaled_direction(const IntegerVector& v) {
-  return ratio(v, scaled(std::max({Integer(abs(v.x)), Integer(abs(v.y)), Integer(abs(v.z))})));
+  return ratio(v, scaled(largest_coordinate(v)));
 }
 
 IntervalDifference::IntervalDifference(const Difference& difference)
@@ -162,18 +166,25 @@ LineSearch::LineSearch(const IntervalDifference& difference, const Difference& e
   }
 }
 
-LineSearch::LineSearch(const IntervalDifference& difference, unsigned edge,
-                       const IntegerVector& direction, const IntervalVector& vertex,
+LineSearch::LineSearch(const IntervalDifference& difference, const Difference& exact, unsigned edge,
+                       const IntegerVector& direction, const IntegerVector& q,
                        const IntervalVector& from, const IntervalVector& to)
     : line_(edge), inflation_(0), tilted_disc_(0), is_flat_(direction.z == 0) {
-  // e crosses A's axis z and the edge w, f = w × e: the axis is seen along f.
-  const IntervalVector w = scaled_direction(direction);
-  const Interval across = square_root<Interval>(square(w.x) + square(w.y)), length = norm(w);
-  const Interval sine = across / length, cosine = w.z / length;
-  const IntervalVector e{-w.y / across, w.x / across, 0};
-  const IntervalVector f{-cosine * e.y, cosine * e.x, sine};
-  const auto planar = [&](const IntervalVector& v) { return Planar{dot(v, e), dot(v, f)}; };
-  d_ = planar(difference.d - vertex);
+  // e crosses A's axis z and the edge w, f = w × e: the axis is seen along f. What q has along them
+  // is exact before it is rounded: near the edge it may be small against the bodies.
+  const IntegerVector e_exact{-direction.y, direction.x, 0};
+  const Integer longest = largest_coordinate(direction), across = largest_coordinate(e_exact);
+  const IntervalVector w = ratio(direction, scaled(longest)), e = ratio(e_exact, scaled(across));
+  const Interval e_length = norm(e), w_length = norm(w), cosine = w.z / w_length;
+  const Interval sine = e_length * ratio(across, scaled(longest)) / w_length;
+  const IntervalVector e_unit = Interval(1) / e_length * e;
+  const IntervalVector f_unit{-cosine * e_unit.y, cosine * e_unit.x, sine};
+  const auto planar = [&](const IntervalVector& v) {
+    return Planar{dot(v, e_unit), dot(v, f_unit)};
+  };
+  const Integer unit = difference.scale * exact.norm * across;
+  d_ = {ratio(dot(q, e_exact), scaled(unit)) / e_length,
+        ratio(dot(q, cross(direction, e_exact)), scaled(unit * longest)) / (e_length * w_length)};
   segments_.push_back({{0, sine}, difference.segments.front().half_length});
   discs_.push_back({{0, sine}, cosine, difference.discs.front().radius});
   arc_ = Arc{planar(from), planar(to)};

@@ -121,10 +121,11 @@ class LineSearch {
   LineSearch(const IntervalDifference& difference, const Difference& exact, unsigned segment,
              std::optional<unsigned> tilted_disc);
 
-  /// An edge of a hull, not parallel to A's axis: its direction, a vertex of it, and the normals of
-  /// its faces, the second counterclockwise of the first about the edge.
-  LineSearch(const IntervalDifference& difference, unsigned edge, const IntegerVector& direction,
-             const IntervalVector& vertex, const IntervalVector& from, const IntervalVector& to);
+  /// An edge of a hull, not parallel to A's axis: its direction, d less a vertex of it, and the
+  /// normals of its faces, the second counterclockwise of the first about the edge.
+  LineSearch(const IntervalDifference& difference, const Difference& exact, unsigned edge,
+             const IntegerVector& direction, const IntegerVector& q, const IntervalVector& from,
+             const IntervalVector& to);
 
   /// Which part of a quarter turn can be in the arc: lo > hi if none.
   Piece in_arc(unsigned turn) const;
