@@ -242,11 +242,6 @@ inline Ball max(const Ball& a, const Ball& b) {
   arb_max(r.get(), a.get(), b.get(), WorkingPrecision::bits());
   return r;
 }
-inline Ball min(const Ball& a, const Ball& b) {
-  Ball r;
-  arb_min(r.get(), a.get(), b.get(), WorkingPrecision::bits());
-  return r;
-}
 /// Square root of a number known to be non-negative: negative values in the ball are ignored.
 inline Ball sqrt(const Ball& a) {
   Ball r;

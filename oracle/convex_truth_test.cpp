@@ -271,7 +271,8 @@ TEST(ConvexTruth, OfAPolygonAcrossTheAxisHasNoHalfCircleOfNormals) {
   EXPECT_EQ(t.normals.size(), 2u);
   EXPECT_EQ(t.ties, Ties::finite);
   // On one side of it there is one.
-  const Truth half = truth({Cylinder(1, 3), Pose(), hull({{0, 0, 0}, {4, 0, 2}, {4, 0, -2}}), Pose()});
+  const Truth half =
+      truth({Cylinder(1, 3), Pose(), hull({{0, 0, 0}, {4, 0, 2}, {4, 0, -2}}), Pose()});
   ASSERT_EQ(half.families.size(), 1u);
   const NormalFamily& arc = half.families[0];
   EXPECT_LT((arc.axis.cross(arc.ends.at(0)) - Vec3(-1, 0, 0)).norm(), 1e-15);
@@ -422,6 +423,29 @@ TEST(ConvexTruth, OfWhatRoundingWouldMakeALineIsAsSharp) {
   const Truth u = truth({can, Pose({0x1p60, 1, 1}, along_x), far, Pose()});
   EXPECT_LE(u.signed_distance.lo, -1);
   EXPECT_GE(u.signed_distance.hi, -1);
+}
+
+TEST(ConvexTruth, NamesTheVerticesAsGivenWhereRoundingMergesSome) {
+  const Convex body =
+      convex_hull({{-1e-300, -2e-300, 0}, {-2e-300, -1e-300, 0}, {4, 0, 0}, {0, 4, 0}});
+  ASSERT_EQ(body.vertices().size(), 4u);
+  const Configuration c{can, Pose({1, 1, 3}, upright), body, Pose()};
+  EXPECT_EQ(std::get<Convex>(rounded_configuration(c).configuration.b).vertices().size(), 3u);
+  const std::vector<int> one_of_the_merged{0, 2, 3};
+  EXPECT_EQ(truth(c).normals.at(0).support_b, one_of_the_merged);
+}
+
+TEST(ConvexTruth, NamesTheEdgeOfAPrismThatIsNearest) {
+  const Convex wheel = prism(400, 1);
+  for (int i = 0; i < 400; i += 57) {
+    const Vec3 corner = wheel.vertices()[2 * i];
+    const Configuration c{Cylinder(0x1p-40, 1),
+                          Pose(Vec3(3 * corner.x(), 3 * corner.y(), 0), upright), wheel, Pose()};
+    const Truth t = truth(c);
+    ASSERT_EQ(t.normals.size(), 1u);
+    const std::vector<int> edge{2 * i, 2 * i + 1};
+    EXPECT_EQ(t.normals[0].support_b, edge);
+  }
 }
 
 TEST(ConvexTruth, ErrorBoundsWhatRoundingChanges) {

@@ -42,9 +42,9 @@ class RationalDirection : public CriticalDirection {
   void enclose(const Difference&, const BallDifference& balls,
                std::vector<DirectionBound>& out) override {
     const BallVector n = to_balls(n_);
-    const auto [centre_distance, opposite, half_width] = balls.along(n);
-    out.push_back({centre_distance - half_width, n});
-    if (!is_single_) out.push_back({opposite - half_width, -n});
+    const auto [centre_distance, half_width] = balls.along(n);
+    out.push_back({centre_distance - half_width - balls.height(n), n});
+    if (!is_single_) out.push_back({-centre_distance - half_width - balls.height(-n), -n});
   }
   ZeroGap zero_gap(const Difference& difference) override {
     // Of opposite gaps only one can reach zero.

@@ -277,29 +277,48 @@ BallDifference::BallDifference(const Difference& difference)
     discs_.push_back({divided(disc.frame.axis), rounded(disc.radius)});
   }
   if (!difference.hull) return;
-  for (const IntegerVector& v : difference.hull->vertices) vertices_.push_back(divided(v));
+  const Ball inverse_reach = Ball(1) / rounded(difference.hull->reach);
+  for (const IntegerVector& v : difference.hull->vertices) {
+    const auto& [x, y, z] = vertices_.emplace_back(divided(v));
+    relative_vertices_.emplace_back((inverse_reach * x).midpoint(), (inverse_reach * y).midpoint(),
+                                    (inverse_reach * z).midpoint());
+  }
 }
 
 BallDifference::Along BallDifference::along(const BallVector& n) const {
   const Ball inverse_length = Ball(1) / norm(n);
-  const Ball distance = dot(d_, n) * inverse_length;
-  Along result{distance, -distance,
-               add_half_width(Ball(0), segments_, discs_, n) * inverse_length + inflation_};
-  if (vertices_.empty()) return result;
-  Ball highest = dot(vertices_.front(), n), lowest = highest;
-  for (const BallVector& v : vertices_) {
-    const Ball height = dot(v, n);
-    if (!arb_lt(height.get(), highest.get())) highest = max(highest, height);
-    if (!arb_gt(height.get(), lowest.get())) lowest = min(lowest, height);
+  return {dot(d_, n) * inverse_length,
+          add_half_width(Ball(0), segments_, discs_, n) * inverse_length + inflation_};
+}
+
+std::vector<int> BallDifference::highest(const BallVector& n) const {
+  // Doubles leave out what is lower by more than they and n are rounded by.
+  constexpr double margin = 0x1p-30;
+  const BallVector unit = (Ball(1) / norm(n)) * n;
+  const auto is_known = [](const Ball& x) { return mag_cmp_2exp_si(arb_radref(x.get()), -40) < 0; };
+  const bool leaves_out = is_known(unit.x) && is_known(unit.y) && is_known(unit.z);
+  const Vec3 up(unit.x.midpoint(), unit.y.midpoint(), unit.z.midpoint());
+  double top = -std::numeric_limits<double>::infinity();
+  for (const Vec3& v : relative_vertices_) top = std::max(top, v.dot(up));
+  std::vector<int> result;
+  for (std::size_t i = 0; i < relative_vertices_.size(); ++i) {
+    const bool is_lower = leaves_out && relative_vertices_[i].dot(up) < top - margin;
+    if (!is_lower) result.push_back(static_cast<int>(i));
   }
-  result.centre_distance = distance - highest * inverse_length;
-  result.opposite = lowest * inverse_length - distance;
   return result;
+}
+
+Ball BallDifference::height(const BallVector& n) const {
+  if (vertices_.empty()) return 0;
+  const std::vector<int> candidates = highest(n);
+  Ball height = dot(vertices_[candidates.front()], n);
+  for (const int i : candidates) height = max(height, dot(vertices_[i], n));
+  return height / norm(n);
 }
 
 Ball BallDifference::gap(const BallVector& n) const {
   const Along a = along(n);
-  return a.centre_distance - a.half_width;
+  return a.centre_distance - a.half_width - height(n);
 }
 
 }  // namespace touchstone::oracle

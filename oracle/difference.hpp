@@ -142,15 +142,20 @@ class BallDifference {
  public:
   explicit BallDifference(const Difference& difference);
 
-  /// Along n/|n|, in units: g there is centre_distance − half_width, and along −n it is opposite −
-  /// half_width. The half width is that of all but the hull, whose height is taken off the distance
-  /// of the centres. Not finite if n may be zero.
+  /// d·n and the half width, of all but the hull, along n/|n|, in units; not finite if n may be
+  /// zero.
   struct Along {
-    Ball centre_distance, opposite, half_width;
+    Ball centre_distance, half_width;
   };
   Along along(const BallVector& n) const;
 
-  /// g(n/|n|), likewise.
+  /// The height of the hull along n/|n|, likewise; zero without a hull.
+  Ball height(const BallVector& n) const;
+  /// The vertices of the hull that may be the highest along n.
+  std::vector<int> highest(const BallVector& n) const;
+  const BallVector& vertex(int i) const { return vertices_[i]; }
+
+  /// g(n/|n|), d·n less both, likewise.
   Ball gap(const BallVector& n) const;
 
   /// The unit axis of a segment.
@@ -172,6 +177,7 @@ class BallDifference {
   boost::container::static_vector<Disc, max_discs> discs_;
   Ball inflation_;
   std::vector<BallVector> vertices_;
+  std::vector<Vec3> relative_vertices_;  ///< to the reach, rounded
 };
 
 }  // namespace touchstone::oracle

@@ -63,13 +63,15 @@ struct Reach {
   mpq_class operator()(const Plane&) const { return 0; }
 };
 
-/// The hull of rounded vertices, if it has as many: of thin ones rounding may make a line. Adds to
+/// The hull of rounded vertices; of the given ones if rounding puts them on one line. Adds to
 /// `error` how far a vertex moves at most.
 Convex rounded(const Convex& body, const Grid& lengths, mpq_class& error) {
   std::vector<Vec3> vertices;
   mpq_class farthest = 0;
   for (const Vec3& v : body.vertices()) {
-    const Vec3& to = vertices.emplace_back(lengths.nearest(v));
+    const Vec3& to = vertices.emplace_back(v.unaryExpr([&](double x) {
+      return x == 0 ? x : std::copysign(lengths.nearest_size(std::abs(x)), x);
+    }));
     if (to == v) continue;
     mpq_class moved = 0;
     for (int i = 0; i < 3; ++i) moved += change(v[i], to[i]);
@@ -78,13 +80,11 @@ Convex rounded(const Convex& body, const Grid& lengths, mpq_class& error) {
   if (farthest == 0) return exact_hull(body);
   try {
     Convex hull = convex_hull(vertices);
-    if (hull.vertices().size() == body.vertices().size()) {
-      error += farthest;
-      return hull;
-    }
-  } catch (const InvalidInput&) {  // on one line
+    error += farthest;
+    return hull;
+  } catch (const InvalidInput&) {
+    return exact_hull(body);
   }
-  return exact_hull(body);
 }
 
 /// Rounds an orientation and adds to `error` a bound of how far that moves a point at distance

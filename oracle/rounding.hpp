@@ -29,9 +29,9 @@ inline constexpr int kept_bits = 192;
 /// the centres and in every size; a rotation of quaternion q to that of q' moves no point by more
 /// than 2 |q' − q| / |q| times its distance from the centre, as sin(angle/2) <= |q' − q| / |q|.
 ///
-/// Against a plane or a sphere no polynomial arises, and nothing is rounded. A convex body is the
-/// hull of its rounded vertices, and keeps their number: where rounding would merge some, or put
-/// them on one line, none of its vertices is rounded.
+/// Against a plane or a sphere no polynomial arises, and nothing is rounded. A convex body becomes
+/// the hull of its rounded vertices, of which there may be fewer; none of them is rounded if that
+/// would put all on one line.
 RoundedConfiguration rounded_configuration(const Configuration& configuration,
                                            int bits = kept_bits);
 

@@ -142,43 +142,44 @@ Alignment alignment(CriticalDirection& direction, const IntegerVector& axis, con
 
 /// The vertices of a hull that are the highest along the direction, of which n is the ball: exactly
 /// as high as one that no other is above.
-std::vector<int> hull_support(const Difference::Hull& hull, CriticalDirection& direction,
-                              const BallVector& n) {
-  const auto& vertices = hull.vertices;
-  std::vector<Ball> heights;
-  for (const IntegerVector& v : vertices) heights.push_back(dot(to_balls(v), n));
-  const auto highest =
-      std::max_element(heights.begin(), heights.end(), [](const Ball& a, const Ball& b) {
-        return arf_cmp(arb_midref(a.get()), arb_midref(b.get())) < 0;
-      });
-  std::vector<int> result;
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
-    const auto top = static_cast<std::size_t>(highest - heights.begin());
-    const bool may_be = i == top || !arb_lt(heights[i].get(), highest->get());
-    if (may_be && direction.is_across(vertices[i] - vertices[top])) {
-      result.push_back(static_cast<int>(i));
-    }
-  }
+std::vector<int> hull_support(const Difference::Hull& hull, const BallDifference& balls,
+                              CriticalDirection& direction, const BallVector& n) {
+  std::vector<int> result = balls.highest(n);
+  const auto height = [&](int i) { return dot(balls.vertex(i), n); };
+  const int top = *std::max_element(result.begin(), result.end(), [&](int i, int k) {
+    return arf_cmp(arb_midref(height(i).get()), arb_midref(height(k).get())) < 0;
+  });
+  std::erase_if(result, [&](int i) {
+    const bool may_be_as_high = i == top || (height(i) - height(top)).contains_zero();
+    return !may_be_as_high || !direction.is_across(hull.vertices[i] - hull.vertices[top]);
+  });
   return result;
 }
 
-/// The same vertices of the body as given: there may be others in it that are no corners.
-std::vector<int> indices_in(const Convex& given, const Convex& exact, std::vector<int> vertices) {
-  if (given.vertices().size() == exact.vertices().size()) return vertices;
+/// The same vertices of the body as given, which may have more: some that are no corners, or that
+/// rounding has merged.
+std::vector<int> indices_in(const Convex& given, const Convex& rounded, std::vector<int> vertices) {
+  const auto& all = given.vertices();
+  if (all.size() == rounded.vertices().size()) return vertices;
   for (int& v : vertices) {
-    const auto& all = given.vertices();
-    v = static_cast<int>(std::find(all.begin(), all.end(), exact.vertices()[v]) - all.begin());
+    const Vec3& at = rounded.vertices()[v];
+    const auto nearest =
+        std::min_element(all.begin(), all.end(), [&](const Vec3& a, const Vec3& b) {
+          return (a - at).stableNorm() < (b - at).stableNorm();
+        });
+    v = static_cast<int>(nearest - all.begin());
   }
   return vertices;
 }
 
 OptimalNormal optimal_normal(const Difference& difference, const Shape& b,
-                             CriticalDirection& direction, const Vec3& n, const BallVector& exact) {
+                             const BallDifference& balls, CriticalDirection& direction,
+                             const Vec3& n, const BallVector& exact) {
   OptimalNormal result;
   result.n = n;
   if (const auto* const body = std::get_if<Convex>(&b)) {
-    result.support_b =
-        indices_in(*body, difference.hull->body, hull_support(*difference.hull, direction, exact));
+    result.support_b = indices_in(*body, difference.hull->body,
+                                  hull_support(*difference.hull, balls, direction, exact));
   }
   result.to_a = alignment(direction, {0, 0, 1}, {1, 0, 0}, {0, 1, 0});
   const auto& axes = difference.axes_b;
@@ -222,7 +223,7 @@ NormalFamily arc_between(const std::vector<OptimalNormal>& normals) {
 
 /// Sites are ordered from simple to complex, so that a direction with several sites is known by the
 /// simplest.
-void set_normals(const Difference& difference, const Shape& b,
+void set_normals(const Difference& difference, const Shape& b, const BallDifference& balls,
                  const std::vector<Survivor>& survivors, Truth& truth) {
   for (const auto& [direction, bounds] : survivors) {
     if (const auto exact = direction->family()) {
@@ -240,7 +241,7 @@ void set_normals(const Difference& difference, const Shape& b,
           std::any_of(truth.normals.begin(), truth.normals.end(),
                       [&](const OptimalNormal& m) { return (m.n - n).norm() < same_normal; });
       if (!known) {
-        truth.normals.push_back(optimal_normal(difference, b, *direction, n, *bound.normal));
+        truth.normals.push_back(optimal_normal(difference, b, balls, *direction, n, *bound.normal));
       }
     }
   }
@@ -371,7 +372,7 @@ std::optional<Truth> truth_of(const RoundedConfiguration& question, const Reques
 
     Truth result{*signed_distance, {}, Ties::unique, {}};
     drop_below(survivors, *best.lo - tie);
-    set_normals(difference, wanted.configuration.b, survivors, result);
+    set_normals(difference, wanted.configuration.b, balls, survivors, result);
     return result;
   }
   throw std::logic_error("oracle: the signed distance could not be enclosed");
