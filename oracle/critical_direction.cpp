@@ -39,12 +39,17 @@ class RationalDirection : public CriticalDirection {
   RationalDirection(IntegerVector n, std::optional<DirectionFamily> family, bool is_single)
       : n_(std::move(n)), family_(std::move(family)), is_single_(is_single) {}
 
-  void enclose(const Difference&, const BallDifference& balls,
+  void enclose(const Difference& difference, const BallDifference& balls,
                std::vector<DirectionBound>& out) override {
     const BallVector n = to_balls(n_);
-    const auto [centre_distance, half_width] = balls.along(n);
-    out.push_back({centre_distance - half_width - balls.height(n), n});
-    if (!is_single_) out.push_back({-centre_distance - half_width - balls.height(-n), -n});
+    const BallDifference::Along along = balls.along(n);
+    const auto add = [&](const Ball& distance, const BallVector& towards) {
+      Ball gap = distance - along.half_width;
+      if (difference.hull) gap = gap - balls.height(towards);
+      out.push_back({std::move(gap), towards});
+    };
+    add(along.centre_distance, n);
+    if (!is_single_) add(-along.centre_distance, -n);
   }
   ZeroGap zero_gap(const Difference& difference) override {
     // Of opposite gaps only one can reach zero.
@@ -172,7 +177,11 @@ std::unique_ptr<CriticalDirection> rational_direction(IntegerVector n,
 Certainty at_vertex(const std::vector<IntegerVector>& inward, const BallVector& n) {
   Certainty result = Certainty::yes;
   for (const IntegerVector& v : inward) {
-    const Ball side = dot(to_balls(v), n);
+    Ball side = [&] {
+      const WorkingPrecision few_bits(64);  // which nearly always decide
+      return dot(to_balls(v), n);
+    }();
+    if (side.contains_zero()) side = dot(to_balls(v), n);
     if (side.is_negative()) return Certainty::no;
     if (!side.is_positive()) result = Certainty::undecided;
   }

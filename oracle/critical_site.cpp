@@ -73,7 +73,7 @@ Search::Search(const Difference& difference, double slack)
 
 void Search::search_directions() {
   const auto add = [&](const CriticalSite& site, const IntervalVector& n) {
-    const auto [forth, back] = difference_.gaps(n);
+    const auto [forth, back] = exact_.hull ? difference_.gaps_of_hull(n) : difference_.gaps(n);
     threshold_.raise(forth);
     threshold_.raise(back);
     directions_.push_back({site, max(forth, back)});

@@ -87,15 +87,19 @@ OppositeGaps IntervalDifference::gaps(const IntervalVector& n) const {
   const Interval length = norm(n);
   const Interval centre_distance = dot(d, n) / length;
   const Interval half_width = add_half_width(Interval(0), segments, discs, n) / length + inflation;
-  OppositeGaps gaps{centre_distance - half_width, -centre_distance - half_width};
-  if (vertices.empty()) return gaps;
+  return {centre_distance - half_width, -centre_distance - half_width};
+}
+
+OppositeGaps IntervalDifference::gaps_of_hull(const IntervalVector& n) const {
   Interval highest = dot(vertices.front(), n), lowest = highest;
   for (const IntervalVector& v : vertices) {
     const Interval height = dot(v, n);
     highest = max(highest, height);
     lowest = min(lowest, height);
   }
-  return {gaps.forth - highest / length, gaps.back + lowest / length};
+  const auto [forth, back] = gaps(n);
+  const Interval length = norm(n);
+  return {forth - highest / length, back + lowest / length};
 }
 
 Interval IntervalDifference::gap_of_vertex(const IntervalVector& vertex,

@@ -69,9 +69,11 @@ struct IntervalDifference {
 
   explicit IntervalDifference(const Difference& difference);
 
-  /// g(n/|n|) and g(−n/|n|) relative to `scale`; all real numbers if n may be zero.
+  /// g(n/|n|) and g(−n/|n|) relative to `scale`, but for a hull; all real numbers if n may be zero.
   OppositeGaps gaps(const IntervalVector& n) const;
-  /// The first of them against one vertex of the hull alone: no smaller than against all of it.
+  /// The same against a hull, and the first of them against one vertex alone: no smaller than
+  /// against all.
+  OppositeGaps gaps_of_hull(const IntervalVector& n) const;
   Interval gap_of_vertex(const IntervalVector& vertex, const IntervalVector& n) const;
 
   Integer scale;  ///< in units: the sum of all sizes

@@ -318,6 +318,7 @@ Ball BallDifference::height(const BallVector& n) const {
 
 Ball BallDifference::gap(const BallVector& n) const {
   const Along a = along(n);
+  if (vertices_.empty()) return a.centre_distance - a.half_width;
   return a.centre_distance - a.half_width - height(n);
 }
 

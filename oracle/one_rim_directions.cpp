@@ -86,17 +86,17 @@ struct Profile {
   LineSlope<Ball> slope(int branch) const;
   /// norm² n·n
   Polynomial length_squared() const {
-    return {Integer(norm * norm * e_squared), 0, Integer(norm * norm * f_squared)};
+    return {Integer(norm * norm * squared(line.e)), 0, Integer(norm * norm * squared(line.f))};
   }
   /// |f|/|e|, unless it is 1.
   std::optional<Ball> stretch() const {
-    if (e_squared == f_squared) return std::nullopt;
-    return root_of_ratio(f_squared, e_squared);
+    if (!is_edge) return std::nullopt;
+    return relative_length(line.e);
   }
 
   Integer norm;
-  Frame line;  ///< whose directions may have any length
-  Integer e_squared, f_squared;
+  Frame line;  ///< of any length; all of one, unless it is an edge of a hull
+  bool is_edge;
   std::vector<IntegerVector> inward;
   IntegerVector q;
   Frame disc;
@@ -107,15 +107,15 @@ struct Profile {
   Polynomial along(const IntegerVector& v) const { return {dot(v, line.e), dot(v, line.f)}; }
   /// v·n'
   Polynomial across(const IntegerVector& v) const {
-    if (e_squared == f_squared) return {dot(v, line.f), Integer(-dot(v, line.e))};
-    return {Integer(e_squared * dot(v, line.f)), Integer(-f_squared * dot(v, line.e))};
+    if (!is_edge) return {dot(v, line.f), Integer(-dot(v, line.e))};
+    return {Integer(squared(line.e) * dot(v, line.f)), Integer(-squared(line.f) * dot(v, line.e))};
   }
 
- private:
-  static Ball root_of_ratio(const Integer& a, const Integer& b) {
-    if (a == b) return 1;
+  static Integer squared(const IntegerVector& v) { return dot(v, v); }
+  /// Of f to this direction.
+  Ball relative_length(const IntegerVector& v) const {
     const long bits = WorkingPrecision::bits();
-    return sqrt(Ball(a, bits) / Ball(b, bits));
+    return sqrt(Ball(squared(line.f), bits) / Ball(squared(v), bits));
   }
 };
 
@@ -136,10 +136,10 @@ LineSlope<Ball> Profile::slope(int branch) const {
     const Ball sine = ball(-dot(v, line.e));
     return Harmonic<Ball>{ball(dot(v, line.f)), longer ? *longer * sine : sine};
   };
-  const Integer along_line = dot(disc.axis, line.axis);
-  return {harmonic(q), harmonic(disc.axis),
-          ball(along_line) * root_of_ratio(f_squared, dot(line.axis, line.axis)),
-          ball(branch * radius), along_line == 0};
+  const Integer exact = dot(disc.axis, line.axis);
+  Ball along_line = ball(exact);
+  if (longer) along_line = along_line * relative_length(line.axis);
+  return {harmonic(q), harmonic(disc.axis), along_line, ball(branch * radius), exact == 0};
 }
 
 class RimLineDirection : public CriticalDirection {
@@ -258,7 +258,8 @@ namespace {
 /// The line's frame before it is turned by quarters.
 Frame line_frame(const Difference& difference, const CriticalSite& site) {
   if (!difference.hull) {
-    return turned_frame(difference.segments[site.first].frame, site.heading).frame;
+    auto [frame, stretch] = turned_frame(difference.segments[site.first].frame, site.heading);
+    return {stretch * frame.axis, std::move(frame.e), std::move(frame.f)};
   }
   // e crosses A's axis and the edge, so that A's disc is seen along f.
   const IntegerVector edge = edge_vector(*difference.hull, static_cast<int>(site.first));
@@ -275,8 +276,7 @@ Profile profile_at(const Difference& difference, const CriticalSite& site) {
   const Frame line = turned(line_frame(difference, site), site.turn);
   return {difference.norm,
           line,
-          dot(line.e, line.e),
-          dot(line.f, line.f),
+          difference.hull.has_value(),
           inward(difference, site),
           reduced_point(difference, site),
           disc.frame,
@@ -301,8 +301,8 @@ void append_rim_line(const Difference& difference, const CriticalSite& site,
     // end's normal cone.
     const auto& [axis, e, f] = profile.line;
     std::vector<IntegerVector> sides = profile.inward;
-    sides.push_back(Integer(profile.f_squared * dot(profile.q, e)) * e +
-                    Integer(profile.e_squared * dot(profile.q, f)) * f);
+    sides.push_back(Integer(Profile::squared(f) * dot(profile.q, e)) * e +
+                    Integer(Profile::squared(e) * dot(profile.q, f)) * f);
     DirectionFamily arc = sector(axis, sides);
     if (!arc.ends.empty()) {
       const IntegerVector end = arc.ends.front();

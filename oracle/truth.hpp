@@ -68,8 +68,9 @@ struct Truth {
 /// the larger size and orientations to as many bits (rounding.hpp); a narrower `width` keeps more.
 /// The enclosure is valid for the exact configuration; normals, ties and alignments are those of
 /// the rounded one, and bodies that touch to within 2^-184 of the size have zero in their
-/// enclosure. This bounds the time for any finite numbers to about 50 ms at the width 1e-30; against
-/// a convex body of 8 vertices to 400 ms, and for numbers of moderate size as truth.md says.
+/// enclosure. This bounds the time for any finite numbers to about 50 ms at the width 1e-30;
+/// against a convex body of 8 vertices to 400 ms, and for numbers of moderate size as truth.md
+/// says.
 ///
 /// Throws InvalidInput unless 0 < width; std::logic_error if its own bounds contradict each other.
 Truth truth(const Configuration& configuration, double width = 1e-30, double tie = 0);
