@@ -79,12 +79,10 @@ class BranchAndBound {
   void bound_by(const ClosestPair<R>& closest) {
     found_.normal = closest.direction;
     found_.lo = gap_below(certain_, closest.direction);
-    // The centres serve if rounding has moved the points out of the bodies.
-    PointPair<R> pair{Vector<R>::Zero(), Vector<R>::Zero()};
+    // Any other serves if rounding has moved the points out of the bodies.
     const PointPair<R> inside = pulled_inside(search_, closest.pair);
-    if (certainly_contain(certain_, inside)) pair = inside;
-    found_.closest = pair;
-    found_.distance = distance_above(certain_, pair);
+    found_.closest = certainly_contain(certain_, inside) ? inside : some_pair(search_);
+    found_.distance = distance_above(certain_, found_.closest);
   }
 
   void try_direction(const Vector<R>& n) {

@@ -5,6 +5,7 @@
 #include "oracle/audit/certain_bounds.hpp"
 #include "oracle/audit/enclose.hpp"
 #include "oracle/audit/pair_search.hpp"
+#include "oracle/hull.hpp"
 #include "properties/moves.hpp"
 #include "reference/support.hpp"
 
@@ -24,9 +25,13 @@ class RandomBodies : public testing::Test {
   }
   double size() { return uniform(0.2, 1); }
   Shape other() {
-    switch (random_() % 4) {
+    switch (random_() % 6) {
       case 0:
         return Sphere(size());
+      case 4:
+        return hull(8);
+      case 5:
+        return hull(3);
       case 1:
         return Capsule(size(), size());
       case 2:
@@ -34,6 +39,13 @@ class RandomBodies : public testing::Test {
       default:
         return Box({size(), size(), size()});
     }
+  }
+  /// About its frame's origin, which deep bodies share with the cylinder.
+  Convex hull(int points) {
+    const CGAL::Protect_FPU_rounding<true> nearest(CGAL_FE_TONEAREST);
+    std::vector<Vec3> vertices;
+    for (int i = 0; i < points; ++i) vertices.push_back(vector(0.6));
+    return oracle::convex_hull(vertices);
   }
   Configuration configuration() { return {Cylinder(size(), size()), pose(), other(), pose()}; }
   DirectionCell<double> cell() {
@@ -89,7 +101,7 @@ TEST_F(RandomBodies, NoDirectionOfACellBeatsItsBound) {
     const auto certain = make_bodies<Interval>(c, 1);
     const auto search = make_bodies<double>(c, 1);
     const auto k = cell();
-    CellProgram<double> program(search, k, {Vec3::Zero(), Vec3::Zero()});
+    CellProgram<double> program(search, k, some_pair(search));
     program.run(-1e9, 1e-9, 100);
     const auto pair = pulled_inside(search, program.pair());
     ASSERT_TRUE(certainly_contain(certain, pair));
@@ -110,7 +122,7 @@ TEST_F(RandomBodies, TheProgramFindsTheLargestGapOfTheCornersHull) {
     const Configuration c = configuration();
     const auto search = make_bodies<double>(c, 1);
     const auto k = cell();
-    CellProgram<double> program(search, k, {Vec3::Zero(), Vec3::Zero()});
+    CellProgram<double> program(search, k, some_pair(search));
     program.run(-1e9, 1e-12, 200);
     double best = -1e9;
     for (int j = 0; j < 2000; ++j) {
@@ -181,6 +193,28 @@ TEST(Enclose, OverlappingBodiesShareAPoint) {
   const Enclosure e = enclose(c);
   EXPECT_LE(e.pair_distance, 1e-12);
   EXPECT_LT(e.hi, 0);
+}
+
+TEST(Enclose, ATriangleInACylinderIsAsDeepAsThatIsWideAcrossIt) {
+  // Flat, so that its own width is none: the nearer cap is half a metre away.
+  const Convex triangle = oracle::convex_hull(std::vector<Vec3>{{1, 0, 0}, {0, 1, 0}, {-1, -1, 0}});
+  const Enclosure e = enclose({Cylinder(4, 1), Pose({0, 0, 0.5}, upright), triangle, Pose()});
+  EXPECT_LE(e.lo, -0.5);
+  EXPECT_GE(e.hi, -0.5);
+  EXPECT_LE(e.hi - e.lo, 1e-8);
+}
+
+TEST(Enclose, AHullFarFromItsPositionIsAsOneThatIsAboutIt) {
+  const std::vector<Vec3> points{{1, 0, 0}, {0, 1, 0}, {-1, -1, 0}, {0, 0, 1.5}};
+  for (const double far : {0.0, 1e6}) {
+    const Vec3 by(far, -far, 0);
+    std::vector<Vec3> moved = points;
+    for (Vec3& p : moved) p += by;
+    const Enclosure e = enclose({Cylinder(0.5, 1), Pose({0, 0, 0.5}, upright),
+                                 oracle::convex_hull(moved), Pose(-by, upright)});
+    EXPECT_LT(e.hi, -0.4);
+    EXPECT_LE(e.hi - e.lo, 2e-9);
+  }
 }
 
 TEST(Enclose, PowerOfTwoScalingScalesTheEnclosureExactly) {

@@ -6,8 +6,8 @@
 #include <boost/multiprecision/eigen.hpp>
 #include <boost/multiprecision/mpfr.hpp>
 #include <cmath>
-#include <stdexcept>
 #include <string>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -62,15 +62,25 @@ Vector<To> as(const Vector<From>& v) {
   return {To(v.x()), To(v.y()), To(v.z())};
 }
 
+/// The larger of two numbers, certainly.
+template <class T>
+T larger(const T& x, const T& y) {
+  return x < y ? y : x;
+}
+inline Interval larger(const Interval& x, const Interval& y) {
+  return {std::max(x.inf(), y.inf()), std::max(x.sup(), y.sup())};
+}
+
 // A configuration in any arithmetic: enclosed in intervals, exact in rationals, rounded in doubles.
-// Every shape but the half-space is the Minkowski sum of a box, a disc perpendicular to the local z
-// axis and a ball, any of which may be a point; a cylinder is a segment plus a disc.
+// Every shape but the half-space and the hull is the Minkowski sum of a box, a disc perpendicular
+// to the local z axis and a ball, any of which may be a point; a cylinder is a segment plus a disc.
 
 template <class T>
 struct Body {
   Matrix<T> axes;  ///< columns: the body's axes in world coordinates, orthonormal
   Vector<T> half_extents = Vector<T>(T(0), T(0), T(0));
   T disc_radius{0}, ball_radius{0};
+  std::vector<Vector<T>> vertices;  ///< of a hull, which has none of the others
 };
 
 template <class T>
@@ -79,12 +89,29 @@ struct Bodies {
   Vector<T> offset;  ///< centre A − centre B, world coordinates
 };
 
+/// A share of one of a hull's vertices in a point.
+template <class T>
+struct VertexWeight {
+  int vertex;
+  T weight;
+};
+
 /// A point of A and a point of B, each in its own body frame. Their difference w = a − b bounds the
 /// gap along every unit vector: g(n) <= w·n.
 template <class T>
 struct PointPair {
   Vector<T> a, b;
+  /// In a hull, instead of `b`: the point is the mean of vertices by their weights, of any sum. Who
+  /// sees that none is negative need not know the hull's faces.
+  std::vector<VertexWeight<T>> weights = {};
 };
+
+template <class To, class From>
+PointPair<To> as(const PointPair<From>& pair) {
+  PointPair<To> result{as<To>(pair.a), as<To>(pair.b)};
+  for (const auto& [vertex, weight] : pair.weights) result.weights.push_back({vertex, To(weight)});
+  return result;
+}
 
 /// The rotation of a quaternion of any length, R(q)/|q|², by Euler–Rodrigues.
 template <class T>
@@ -101,6 +128,13 @@ Matrix<T> rotation(const Eigen::Quaterniond& quaternion) {
   const T squared = w * w + x * x + y * y + z * z;
   for (int i = 0; i < 9; ++i) r(i) = r(i) / squared;
   return r;
+}
+
+/// Where a body's frame has its origin, for numbers of the body's size: a hull may be far from its
+/// position.
+inline Vec3 centre(const Shape& shape) {
+  const auto* hull = std::get_if<Convex>(&shape);
+  return hull ? hull->middle() : Vec3(Vec3::Zero());
 }
 
 /// Sets a body's sizes from its shape, in multiples of a unit; a half-space has none.
@@ -121,15 +155,22 @@ struct Sizes {
   void operator()(const Box& s) const {
     for (int i = 0; i < 3; ++i) body.half_extents[i] = T(s.half_extents()[i]) / unit;
   }
-  void operator()(const Convex&) const { throw std::logic_error("convex: later stage"); }
+  void operator()(const Convex& s) const {
+    const Vector<T> middle = as<T>(s.middle()) / unit;
+    for (const Vec3& v : s.vertices()) body.vertices.push_back(as<T>(v) / unit - middle);
+  }
   void operator()(const Plane&) const {}
 };
 
 /// A power of two near the configuration's largest length, metres. Lengths in multiples of it do
 /// not overflow.
 inline double unit_of(const Configuration& c) {
-  const Vec3 quarter_apart = c.pose_a.position() / 4 - c.pose_b.position() / 4;
-  double length = std::max(larger_size(c), quarter_apart.cwiseAbs().maxCoeff());
+  const Vec3 middle = centre(c.b);
+  const Vec3 quarter_apart =
+      c.pose_a.position() / 4 - c.pose_b.position() / 4 - c.pose_b.rotation() * (middle / 4);
+  // 2^-60 of it is what 400 bits leave of a hull that is far from its position.
+  double length = std::max({larger_size(c), quarter_apart.cwiseAbs().maxCoeff(),
+                            std::ldexp(middle.cwiseAbs().maxCoeff(), -60)});
   if (const auto* plane = std::get_if<Plane>(&c.b)) {
     const double offset = plane->displacement() / plane->normal().cwiseAbs().maxCoeff();
     length = std::max(length, std::abs(offset));
@@ -156,6 +197,9 @@ Bodies<T> make_bodies(const Configuration& c, double unit) {
     bodies.offset[i] =
         (T(c.pose_a.position()[i]) / T(4) - T(c.pose_b.position()[i]) / T(4)) / (T(unit) / T(4));
   }
+  if (!bodies.b.vertices.empty()) {
+    bodies.offset -= bodies.b.axes * Vector<T>(as<T>(centre(c.b)) / T(unit));
+  }
   return bodies;
 }
 
@@ -163,6 +207,11 @@ Bodies<T> make_bodies(const Configuration& c, double unit) {
 template <class T>
 T support(const Body<T>& body, const Vector<T>& n) {
   using std::abs, std::sqrt;
+  if (!body.vertices.empty()) {
+    T highest = body.vertices[0].dot(n);
+    for (const Vector<T>& v : body.vertices) highest = larger(highest, T(v.dot(n)));
+    return highest;
+  }
   T sum(0);
   for (int i = 0; i < 3; ++i) sum += body.half_extents[i] * T(abs(n[i]));
   const T across = n.x() * n.x() + n.y() * n.y();
@@ -171,10 +220,23 @@ T support(const Body<T>& body, const Vector<T>& n) {
   return sum;
 }
 
+/// The point of B, in its frame.
+template <class T>
+Vector<T> point_of_b(const Bodies<T>& bodies, const PointPair<T>& pair) {
+  if (pair.weights.empty()) return pair.b;
+  T sum(0);
+  Vector<T> weighted(T(0), T(0), T(0));
+  for (const auto& [vertex, weight] : pair.weights) {
+    sum += weight;
+    weighted += weight * bodies.b.vertices[vertex];
+  }
+  return weighted / sum;
+}
+
 /// The difference a − b of a pair of points, world coordinates.
 template <class T>
 Vector<T> difference(const Bodies<T>& bodies, const PointPair<T>& pair) {
-  const Vector<T> a = bodies.a.axes * pair.a, b = bodies.b.axes * pair.b;
+  const Vector<T> a = bodies.a.axes * pair.a, b = bodies.b.axes * point_of_b(bodies, pair);
   return bodies.offset + a - b;
 }
 
@@ -244,9 +306,22 @@ bool certainly_contains(const Body<T>& body, const Vector<Real<T>>& p) {
   return upper(squared) <= lower(limit);
 }
 
+/// Do the weights certainly have a mean?
+template <class R>
+bool are_shares(const std::vector<VertexWeight<R>>& weights) {
+  R sum(0);
+  for (const auto& [vertex, weight] : weights) {
+    if (!(weight >= 0)) return false;
+    sum += weight;
+  }
+  return sum > 0 && sum - sum == 0;
+}
+
 template <class T>
 bool certainly_contain(const Bodies<T>& bodies, const PointPair<Real<T>>& pair) {
-  return certainly_contains(bodies.a, pair.a) && certainly_contains(bodies.b, pair.b);
+  return certainly_contains(bodies.a, pair.a) &&
+         (bodies.b.vertices.empty() ? certainly_contains(bodies.b, pair.b)
+                                    : are_shares(pair.weights));
 }
 
 /// Certain lower bound of g(n/|n|).
@@ -257,16 +332,11 @@ Real<T> gap_below(const Bodies<T>& bodies, const Vector<Real<T>>& n) {
   return lower(T(gap_times_length(bodies, exact) / T(sqrt(T(exact.squaredNorm())))));
 }
 
-template <class T>
-Vector<T> exact_difference(const Bodies<T>& bodies, const PointPair<Real<T>>& pair) {
-  return difference(bodies, PointPair<T>{as<T>(pair.a), as<T>(pair.b)});
-}
-
 /// Certain upper bound of the points' distance, and so of the gap along every direction.
 template <class T>
 Real<T> distance_above(const Bodies<T>& bodies, const PointPair<Real<T>>& pair) {
   using std::sqrt;
-  const Vector<T> w = exact_difference(bodies, pair);
+  const Vector<T> w = difference(bodies, as<T>(pair));
   return upper(T(sqrt(T(w.squaredNorm()))));
 }
 
@@ -277,7 +347,7 @@ template <class T>
 Real<T> corner_bound_above(const Bodies<T>& bodies, const PointPair<Real<T>>& pair,
                            const DirectionCell<Real<T>>& cell) {
   using std::sqrt;
-  const Vector<T> w = exact_difference(bodies, pair);
+  const Vector<T> w = difference(bodies, as<T>(pair));
   bool first = true;
   Real<T> bound(0);
   for (const auto& corner : cell.corners()) {

@@ -35,7 +35,12 @@ Vector<Rational> truncated(const Vector<Multiprecision>& v, int bits) {
 }
 
 PointPair<Rational> truncated(const PointPair<Multiprecision>& pair, int bits) {
-  return {truncated(pair.a, bits), truncated(pair.b, bits)};
+  PointPair<Rational> result{truncated(pair.a, bits), truncated(pair.b, bits)};
+  for (const auto& [vertex, weight] : pair.weights) {
+    const Rational shorter = rounded(weight, bits, MPFR_RNDZ);
+    if (shorter != 0) result.weights.push_back({vertex, shorter});
+  }
+  return result;
 }
 
 /// Bits after the binary point that resolve a small positive length.
@@ -74,7 +79,11 @@ RationalVector in_metres(const Vector<Rational>& v, double unit) {
   return {in_metres(v.x(), unit), in_metres(v.y(), unit), in_metres(v.z(), unit)};
 }
 RationalPair in_metres(const PointPair<Rational>& pair, double unit) {
-  return {in_metres(pair.a, unit), in_metres(pair.b, unit)};
+  RationalPair result{in_metres(pair.a, unit), in_metres(pair.b, unit), {}};
+  for (const auto& [vertex, weight] : pair.weights) {
+    result.weights.emplace_back(vertex, in_metres(weight, 1));
+  }
+  return result;
 }
 
 using Real400 = Multiprecision;
@@ -85,9 +94,6 @@ constexpr int bits_step = 24, max_bits = 480;
 constexpr int tight_bits = 20;
 
 Vector<Real400> as_reals(const Vector<Rational>& v) { return as<Real400>(v); }
-PointPair<Real400> as_reals(const PointPair<Rational>& pair) {
-  return {as<Real400>(pair.a), as<Real400>(pair.b)};
-}
 
 /// Upper bound of the rounding error of a bound in 400 bits.
 const Real400& rounding() {
@@ -183,7 +189,7 @@ class Prover {
         shortest(exact_, found_.closest, [&](const auto& w) { return closer(w, goal); });
     const Vector<Rational> w = difference(exact_, pair);
     const Rational hi =
-        tight_above(distance_above(bodies_, as_reals(pair)), rounding(), grain_,
+        tight_above(distance_above(bodies_, as<Real400>(pair)), rounding(), grain_,
                     [&](const Rational& end) { return end >= 0 && closer(w, end); });
     result.hi = in_metres(hi, unit_);
     result.pair = in_metres(pair, unit_);
@@ -201,7 +207,7 @@ class Prover {
       const PointPair<Rational> short_pair =
           shortest(exact_, pair, [&](const auto& w) { return bounds_cell(w, cells.back(), goal); });
       differences.push_back(difference(exact_, short_pair));
-      bound = std::max(bound, corner_bound_above(bodies_, as_reals(short_pair), cell));
+      bound = std::max(bound, corner_bound_above(bodies_, as<Real400>(short_pair), cell));
       result.cells.push_back({path_of(cell), in_metres(short_pair, unit_)});
     }
     const Rational hi = tight_above(bound, rounding(), grain_, [&](const Rational& end) {

@@ -4,6 +4,7 @@
 #include <gmpxx.h>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "oracle/audit/enclose.hpp"
@@ -15,6 +16,8 @@ using RationalVector = std::array<mpq_class, 3>;
 /// A point of A and a point of B, each in its own body frame, metres.
 struct RationalPair {
   RationalVector a, b;
+  /// In a hull, instead of `b`: weights of vertices, none negative, whose mean is the point.
+  std::vector<std::pair<int, mpq_class>> weights;
 };
 
 /// A proof of lo <= signed distance <= hi that can be checked in rational arithmetic

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
+#include "oracle/hull.hpp"
 #include "properties/moves.hpp"
 
 namespace touchstone::audit {
@@ -34,6 +35,28 @@ TEST(Certificate, WidthIsKeptDownToTenToTheMinusSixty) {
   EXPECT_LE(fine.hi - fine.lo, mpq_class(1e-60));
   EXPECT_LE(coarse.lo, fine.hi);
   EXPECT_GE(coarse.hi, fine.lo);
+}
+
+TEST(Certificate, OfAHullGivesItsPointsByVerticesAlone) {
+  const std::vector<Vec3> points{{1, 0, 0}, {-0.5, 0.75, 0}, {-0.5, -1, 0}, {0, 0.125, 1.5}};
+  const Convex hull = oracle::convex_hull(points);
+  for (const double height : {0.0, 3.0}) {
+    const Configuration c{Cylinder(0.3, 0.7), Pose({0.25, 0.25, height}, tilt), hull, Pose()};
+    const Certificate proof = certify(c, {1e-30, 4000});
+    EXPECT_LE(proof.hi - proof.lo, mpq_class(1e-30));
+    EXPECT_EQ(proof.pair.has_value(), height > 0);
+    std::vector<RationalPair> pairs;
+    if (proof.pair) pairs.push_back(*proof.pair);
+    for (const auto& cell : proof.cells) pairs.push_back(cell.pair);
+    for (const RationalPair& pair : pairs) {
+      ASSERT_FALSE(pair.weights.empty());
+      for (const auto& [vertex, weight] : pair.weights) {
+        EXPECT_GE(vertex, 0);
+        EXPECT_LT(vertex, 4);
+        EXPECT_GT(weight, 0);
+      }
+    }
+  }
 }
 
 TEST(Certificate, OfBodiesWhoseDistanceHasMoreBitsThanTheSearch) {

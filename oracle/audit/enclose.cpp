@@ -47,9 +47,7 @@ ClosestPair<double> closest_pair(const Configuration& c, const Bodies<double>& s
   }
   const auto precise = make_bodies<Multiprecision>(c, unit);
   const auto again = ClosestPairSearch<Multiprecision>(precise).run(tolerance, max_steps);
-  return {{as<double>(again.pair.a), as<double>(again.pair.b)},
-          as<double>(again.direction),
-          again.gap.convert_to<double>()};
+  return {as<double>(again.pair), as<double>(again.direction), again.gap.convert_to<double>()};
 }
 
 }  // namespace

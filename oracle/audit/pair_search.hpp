@@ -31,11 +31,48 @@ Vector<R> support_point(const Body<R>& body, const Vector<R>& n) {
   return p;
 }
 
+template <class R>
+int support_vertex(const std::vector<Vector<R>>& vertices, const Vector<R>& n) {
+  std::size_t highest = 0;
+  R height = vertices[0].dot(n);
+  for (std::size_t i = 1; i < vertices.size(); ++i) {
+    const R here = vertices[i].dot(n);
+    if (here > height) highest = i, height = here;
+  }
+  return static_cast<int>(highest);
+}
+
 /// The pair that attains the gap along n (world, any length): A's lowest and B's highest point.
 template <class R>
 PointPair<R> support_pair(const Bodies<R>& bodies, const Vector<R>& n) {
   const Vector<R> n_a = bodies.a.axes.transpose() * n, n_b = bodies.b.axes.transpose() * n;
-  return {support_point(bodies.a, Vector<R>(-n_a)), support_point(bodies.b, n_b)};
+  const Vector<R> lowest = support_point(bodies.a, Vector<R>(-n_a));
+  if (bodies.b.vertices.empty()) return {lowest, support_point(bodies.b, n_b)};
+  return {lowest, Vector<R>::Zero(), {{support_vertex(bodies.b.vertices, n_b), R(1)}}};
+}
+
+/// A pair that certainly lies in the bodies, wherever: their centres, or a hull's first vertex.
+template <class R>
+PointPair<R> some_pair(const Bodies<R>& bodies) {
+  PointPair<R> pair{Vector<R>::Zero(), Vector<R>::Zero()};
+  if (!bodies.b.vertices.empty()) pair.weights = {{0, R(1)}};
+  return pair;
+}
+
+/// Adds a share of a pair to a mean of pairs.
+template <class R>
+void add(PointPair<R>& sum, const R& share, const PointPair<R>& pair) {
+  sum.a += share * pair.a;
+  sum.b += share * pair.b;
+  for (const VertexWeight<R>& of : pair.weights) {
+    const auto at = std::find_if(sum.weights.begin(), sum.weights.end(),
+                                 [&](const auto& known) { return known.vertex == of.vertex; });
+    if (at == sum.weights.end()) {
+      sum.weights.push_back({of.vertex, R(share * of.weight)});
+    } else {
+      at->weight += share * of.weight;
+    }
+  }
 }
 
 /// Moves a point into the body by a little more than rounding can have moved it out.
@@ -60,7 +97,11 @@ Vector<R> pulled_inside(const Body<R>& body, const Vector<R>& p) {
 
 template <class R>
 PointPair<R> pulled_inside(const Bodies<R>& bodies, const PointPair<R>& pair) {
-  return {pulled_inside(bodies.a, pair.a), pulled_inside(bodies.b, pair.b)};
+  PointPair<R> result{pulled_inside(bodies.a, pair.a), pulled_inside(bodies.b, pair.b)};
+  for (const VertexWeight<R>& of : pair.weights) {
+    if (of.weight > 0) result.weights.push_back(of);
+  }
+  return result;
 }
 
 /// The result of a search, without guarantee.
@@ -104,7 +145,10 @@ class ClosestPairSearch {
       add(pair, R(0));
       if (!reduce()) break;
     }
-    best.pair = {nearest(&PointPair<R>::a), nearest(&PointPair<R>::b)};
+    best.pair = {Vector<R>::Zero(), Vector<R>::Zero()};
+    for (int i = 0; i < count_; ++i) {
+      audit::add(best.pair, vertices_[i].weight, vertices_[i].pair);
+    }
     return best;
   }
 
@@ -122,11 +166,6 @@ class ClosestPairSearch {
   Vector<R> nearest() const {
     Vector<R> sum = Vector<R>::Zero();
     for (int i = 0; i < count_; ++i) sum += vertices_[i].weight * vertices_[i].w;
-    return sum;
-  }
-  Vector<R> nearest(Vector<R> PointPair<R>::*point) const {
-    Vector<R> sum = Vector<R>::Zero();
-    for (int i = 0; i < count_; ++i) sum += vertices_[i].weight * (vertices_[i].pair.*point);
     return sum;
   }
 
@@ -290,9 +329,7 @@ class CellProgram {
   PointPair<R> pair() const {
     PointPair<R> sum{Vector<R>::Zero(), Vector<R>::Zero()};
     for (int i = 1; i < 5; ++i) {
-      if (!is_pair_[i]) continue;
-      sum.a += inverse_[i][4] * pairs_[i].a;
-      sum.b += inverse_[i][4] * pairs_[i].b;
+      if (is_pair_[i]) add(sum, inverse_[i][4], pairs_[i]);
     }
     return sum;
   }
