@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <stdexcept>
 
 #include "oracle/patch/convex_set.hpp"
 #include "oracle/patch/feature_overlap.hpp"
@@ -24,7 +23,11 @@ double reach(const Capsule& s, const Vec3& n) {
 }
 double reach(const Sphere& s, const Vec3&) { return s.radius(); }
 double reach(const Box& s, const Vec3& n) { return s.half_extents().dot(n.cwiseAbs()); }
-double reach(const Convex&, const Vec3&) { throw std::logic_error("convex: later stage"); }
+double reach(const Convex& s, const Vec3& n) {
+  double highest = -std::numeric_limits<double>::infinity();
+  for (const Vec3& v : s.vertices()) highest = std::max(highest, v.dot(n));
+  return highest;
+}
 double reach(const Plane& s, const Vec3&) { return s.unit_displacement(); }
 
 double reach(const Shape& shape, const Pose& pose, const Vec3& n) {
@@ -38,123 +41,33 @@ ContactPatch::Plane patch_plane(const Configuration& c, const Vec3& n, const Vec
                                 const Vec3& e1) {
   const double height_a = (c.pose_a.position() - through).dot(n) - reach(c.a, c.pose_a, -n);
   const double height_b = (c.pose_b.position() - through).dot(n) + reach(c.b, c.pose_b, n);
-  const Vec3 unit = e1.normalized();
+  const Vec3 unit = e1.stableNormalized();
   const Vec3 across = (unit - unit.dot(n) * n).normalized();
   return {through + (height_a + height_b) / 2 * n, across, n.cross(across)};
 }
 
 using Kind = SupportFeature::Kind;
 
-/// An overlap, and the world frame of its coordinates.
-struct Placement {
-  ConvexSet shape;
-  Vec3 origin;
-  Vec3 e1;  ///< perpendicular to the normal up to rounding
-};
-
-Placement at_point(const Vec3& p, const Vec3& n) {
-  return {ConvexSet::point(Vec2::Zero()), p, n.unitOrthogonal()};
-}
-
-/// Coordinate of `w` along an axis of length `norm`.
-mpq_class along(const RationalVector& w, const RationalVector& axis, const mpq_class& norm) {
-  return dot(w, axis) / norm;
-}
-
-Placement discs(const SupportFeature& first, const SupportFeature& second, const Vec3& n) {
-  const RationalVector w = second.centre - first.centre;
-  const RationalVector across = w - dot(w, first.u) / (first.norm * first.norm) * first.u;
-  const Vec3 direction = rounded(across);
-  return {overlap_of_discs(first.radius, second.radius, dot(across, across)), rounded(first.centre),
-          direction.isZero(0) ? n.unitOrthogonal() : direction};
-}
-
-Placement disc_and_rectangle(const SupportFeature& disc, const SupportFeature& face,
-                             const Vec3& n) {
-  const RationalVector w = disc.centre - face.centre;
-  const Vec3 e1 = rounded(face.u);
-  const int handed = n.cross(e1).dot(rounded(face.v)) < 0 ? -1 : 1;
-  return {overlap_of_disc_and_rectangle(along(w, face.u, face.norm),
-                                        handed * along(w, face.v, face.norm), disc.radius,
-                                        face.half_u, face.half_v),
-          rounded(face.centre), e1};
-}
-
-Placement segment_and_disc(const SupportFeature& segment, const SupportFeature& disc) {
-  const RationalVector w = disc.centre - segment.centre;
-  const mpq_class x = along(w, segment.u, segment.norm), z = along(w, disc.u, disc.norm);
-  return {overlap_of_disc_and_segment(x, dot(w, w) - x * x - z * z, disc.radius, segment.half_u),
-          rounded(segment.centre), rounded(segment.u)};
-}
-
-Placement segment_and_rectangle(const SupportFeature& segment, const SupportFeature& face,
-                                const Vec3& n) {
-  const RationalVector w = segment.centre - face.centre;
-  const Vec3 e1 = rounded(face.u);
-  const int handed = n.cross(e1).dot(rounded(face.v)) < 0 ? -1 : 1;
-  const mpq_class norms = segment.norm * face.norm;
-  return {overlap_of_segment_and_rectangle(
-              along(w, face.u, face.norm), handed * along(w, face.v, face.norm),
-              along(segment.u, face.u, norms), handed * along(segment.u, face.v, norms),
-              segment.half_u, face.half_u, face.half_v),
-          rounded(face.centre), e1};
-}
-
-/// The point where two segments that are not parallel cross, seen along their common perpendicular;
-/// none if they miss each other.
-std::optional<Placement> crossing(const SupportFeature& first, const SupportFeature& second,
-                                  const RationalVector& perpendicular, const Vec3& n) {
-  const RationalVector w = second.centre - first.centre;
-  const mpq_class square = dot(perpendicular, perpendicular);
-  const mpq_class s = dot(cross(w, second.u), perpendicular) / square;
-  const mpq_class t = dot(cross(w, first.u), perpendicular) / square;
-  if (abs(s) * first.norm > first.half_u || abs(t) * second.norm > second.half_u) {
-    return std::nullopt;
-  }
-  return at_point(rounded(first.centre + s * first.u), n);
-}
-
-std::optional<Placement> segments(const SupportFeature& first, const SupportFeature& second,
-                                  const Vec3& n) {
-  const RationalVector perpendicular = cross(first.u, second.u);
-  if (dot(perpendicular, perpendicular) != 0) return crossing(first, second, perpendicular, n);
-  const RationalVector w = second.centre - first.centre;
-  return Placement{overlap_of_segments(first.half_u, along(w, first.u, first.norm), second.half_u),
-                   rounded(first.centre), rounded(first.u)};
-}
-
-std::optional<Placement> alone(const SupportFeature& f, const Vec3& n) {
-  if (f.kind == Kind::disc) return discs(f, f, n);
-  return segments(f, f, n);
-}
-
-std::optional<Placement> overlap(const SupportFeature& a, const SupportFeature& b, const Vec3& n) {
-  if (a.kind == Kind::point && b.kind == Kind::point) return at_point((a.point + b.point) / 2, n);
-  if (a.kind == Kind::point) return at_point(a.point, n);
-  if (b.kind == Kind::point) return at_point(b.point, n);
-  if (b.kind == Kind::plane) return alone(a, n);
-  if (a.kind == Kind::segment) {
-    if (b.kind == Kind::segment) return segments(a, b, n);
-    return b.kind == Kind::disc ? segment_and_disc(a, b) : segment_and_rectangle(a, b, n);
-  }
-  if (b.kind == Kind::segment) return segment_and_disc(b, a);
-  return b.kind == Kind::disc ? discs(a, b, n) : disc_and_rectangle(a, b, n);
-}
-
 /// Distance of a point from a feature, seen along n, in double.
 double distance_beside(const SupportFeature& f, const Vec3& p, const Vec3& n) {
-  if (f.kind == Kind::plane) return 0;
-  const Vec3 w = p - (f.kind == Kind::point ? f.point : rounded(f.centre));
-  const Vec3 across = w - w.dot(n) * n;
-  if (f.kind == Kind::point) return across.norm();
-  if (f.kind == Kind::disc) return std::max(0.0, across.norm() - f.radius.get_d());
-  const auto without = [&](const Vec3& v, const RationalVector& axis, const mpq_class& half) {
-    const Vec3 unit = rounded(axis) / f.norm.get_d();
-    const double limit = half.get_d();
-    return Vec3(v - std::clamp(v.dot(unit), -limit, limit) * unit);
-  };
-  const Vec3 beside_u = without(across, f.u, f.half_u);
-  return (f.kind == Kind::segment ? beside_u : without(beside_u, f.v, f.half_v)).norm();
+  const Vec3 e1 = n.unitOrthogonal(), e2 = n.cross(e1);
+  const auto seen = [&](const Vec3& v) { return Vec2((v - p).dot(e1), (v - p).dot(e2)); };
+  switch (f.kind) {
+    case Kind::plane:
+      return 0;
+    case Kind::point:
+      return seen(f.point).norm();
+    case Kind::disc:
+      return std::max(0.0, seen(rounded(f.centre)).norm() - f.radius.get_d());
+    case Kind::segment:
+      return ConvexSet::segment(seen(rounded(f.centre - f.u)), seen(rounded(f.centre + f.u)))
+          .distance(Vec2::Zero());
+    case Kind::polygon:
+      break;
+  }
+  std::vector<Vec2> corners;
+  for (const RationalVector& corner : f.corners) corners.push_back(seen(rounded(corner)));
+  return ConvexSet::polygon(corners).distance(Vec2::Zero());
 }
 
 /// Are the point features certain, and do they lie on the other feature?
@@ -179,6 +92,26 @@ int exponent_out_of_range(const Configuration& c) {
   return std::abs(exponent) <= in_range ? 0 : exponent;
 }
 
+Convex scaled(const Convex& hull, int exponent) {
+  std::vector<Vec3> vertices;
+  for (const Vec3& v : hull.vertices()) {
+    vertices.push_back(v.unaryExpr([&](double x) { return std::scalbn(x, exponent); }));
+  }
+  std::vector<std::vector<int>> faces;
+  for (const Convex::Face& face : hull.faces()) faces.push_back(face.vertices);
+  return {std::move(vertices), std::move(faces)};
+}
+
+/// As in rounding.hpp, but for a hull: normals name the vertices as given.
+Configuration rounded(const Configuration& c) {
+  if (!std::holds_alternative<Convex>(c.b)) return rounded_configuration(c).configuration;
+  const double size = largest_half_extent(c.b);
+  Configuration result =
+      rounded_configuration({c.a, c.pose_a, Cylinder(size, size), c.pose_b}).configuration;
+  result.b = c.b;
+  return result;
+}
+
 /// Times a power of two.
 Configuration scaled(const Configuration& c, int exponent) {
   const auto length = [&](double x) { return std::scalbn(x, exponent); };
@@ -189,9 +122,11 @@ Configuration scaled(const Configuration& c, int exponent) {
     return Pose(pose.position().unaryExpr(length), pose.orientation());
   };
   const auto* const plane = std::get_if<Plane>(&c.b);
-  return {with_sizes(c.a), moved(c.pose_a),
-          plane ? Plane(plane->unit_normal(), length(plane->unit_displacement())) : with_sizes(c.b),
-          moved(c.pose_b)};
+  const auto* const hull = std::get_if<Convex>(&c.b);
+  const Shape b = plane  ? Plane(plane->unit_normal(), length(plane->unit_displacement()))
+                  : hull ? scaled(*hull, exponent)
+                         : with_sizes(c.b);
+  return {with_sizes(c.a), moved(c.pose_a), b, moved(c.pose_b)};
 }
 
 }  // namespace
@@ -219,7 +154,7 @@ std::vector<Vec3> ContactPatch::outline(int per_quarter) const {
 }
 
 ContactPatch contact_patch(const Configuration& configuration, const OptimalNormal& normal) {
-  const Configuration c = rounded_configuration(configuration).configuration;
+  const Configuration c = rounded(configuration);
   if (const int exponent = exponent_out_of_range(c)) {
     return contact_patch(scaled(c, -exponent), normal).scaled(exponent);
   }

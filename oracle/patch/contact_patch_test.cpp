@@ -4,6 +4,10 @@
 #include <gtest/gtest.h>
 #include <string>
 
+#include "oracle/as_hull.hpp"
+#include "oracle/patch/support_feature.hpp"
+#include "oracle/truth.hpp"
+#include "properties/identity.hpp"
 #include "properties/moves.hpp"
 
 namespace touchstone::oracle {
@@ -28,8 +32,9 @@ struct Contact {
   Configuration c;
   Alignment to_a;
   std::array<Alignment, 3> to_b;
+  std::vector<int> support_b = {};
 
-  ContactPatch patch() const { return contact_patch(c, {up, to_a, to_b}); }
+  ContactPatch patch() const { return contact_patch(c, {up, to_a, to_b, support_b}); }
 };
 
 /// An upright cylinder with its lower cap's middle there.
@@ -60,6 +65,29 @@ Contact lying_on_box(double x, double y) {
 Contact lying_beside(double x) {
   return lying(0.5, 2, 0, 0, Cylinder(1, 3), Pose({x, 0, -1}, along_x), of_side);
 }
+
+/// On a hull of these points, of which those listed are at z = 0.
+Contact standing_on_hull(double radius, double x, double y, const std::vector<Vec3>& points,
+                         const std::vector<int>& highest) {
+  Contact contact = standing(radius, {x, y, 0}, convex_hull(points), Pose(), unaligned);
+  contact.support_b = highest;
+  return contact;
+}
+Contact lying_on_hull(double x, double y, const std::vector<Vec3>& points,
+                      const std::vector<int>& highest) {
+  Contact contact = lying(0.5, 4, x, y, convex_hull(points), Pose(), unaligned);
+  contact.support_b = highest;
+  return contact;
+}
+/// A triangle with a right angle, legs along x and y, and the hypotenuse x + y = 3.
+const std::vector<Vec3> large_one{{-3, -2, 0}, {5, -2, 0}, {-3, 6, 0}};
+/// 3-4-5, with the hypotenuse 3 x + 4 y = 12.
+const std::vector<Vec3> small_one{{0, 0, 0}, {4, 0, 0}, {0, 3, 0}};
+/// Triangles that stand on a corner, their upper edges along x and y.
+const std::vector<Vec3> edge_along_x{{0, 0, 0}, {4, 0, 0}, {1, 0, -2}};
+const std::vector<Vec3> edge_along_y{{1, -2, 0}, {1, 2, 0}, {1, 0, -1}};
+const std::vector<Vec3> pyramid{{0.25, 0.5, 0}, {1, 1, -1}, {-1, 1, -1}, {0, -1, -1}};
+const std::vector<int> all_three{0, 1, 2};
 
 void expect_near(const Vec3& a, const Vec3& b, double tolerance = rounding) {
   EXPECT_LE((a - b).norm(), tolerance) << a.transpose() << " | " << b.transpose();
@@ -139,6 +167,34 @@ const ClosedForm closed_forms[] = {
      region(pi, 2 * pi, 0, 0, -0.05)},
     {"ApartHalfwayBetweenTheSurfaces", standing(1, 0.5 * up, Plane(2 * up, -1), Pose(), unaligned),
      region(pi, 2 * pi, 0, 0)},
+    {"DiscWithinATriangle", standing_on_hull(1, 0, 0, large_one, all_three),
+     region(pi, 2 * pi, 0, 0)},
+    {"TriangleWithinADisc", standing_on_hull(5, 1, 1, small_one, all_three),
+     region(6, 12, 4.0 / 3, 1)},
+    {"DiscThroughTheCornersOfATriangleIsTheTriangle",
+     standing_on_hull(2.5, 2, 1.5, small_one, all_three), region(6, 12, 4.0 / 3, 1)},
+    {"DiscCutByATrianglesEdgeInTheMiddle", standing_on_hull(1, 0, -2, large_one, all_three),
+     region(pi / 2, 2 + pi, 0, -2 + half)},
+    {"DiscCutByATrianglesSlantedEdge", standing_on_hull(1, 1, 2, large_one, all_three),
+     region(pi / 2, 2 + pi, 1 - half / std::sqrt(2), 2 - half / std::sqrt(2))},
+    {"DiscCutByTwoEdgesAtATrianglesCorner", standing_on_hull(1, -3, -2, large_one, all_three),
+     region(pi / 4, 2 + pi / 2, -3 + half, -2 + half)},
+    {"DiscThatTouchesATrianglesSlantedEdgeFromOutsideIsAPoint",
+     standing_on_hull(5, 5, 5.5, small_one, all_three), point(2, 1.5)},
+    {"DiscBeyondATriangleIsTheNearestPoint", standing_on_hull(5, 8, 9.5, small_one, all_three),
+     point(2, 1.5)},
+    {"SideOnATriangleIsCutByIt", lying_on_hull(0, 1, small_one, all_three),
+     segment(8.0 / 3, 4.0 / 3, 1)},
+    {"SideThatEndsInATriangle", lying_on_hull(-3, 1, small_one, all_three), segment(1, 0.5, 1)},
+    {"SideThroughATrianglesCornerIsAPoint", lying_on_hull(0, 3, small_one, all_three), point(0, 3)},
+    {"SideAlongATrianglesEdgeIsTheEdge", lying_on_hull(2, 0, small_one, all_three),
+     segment(4, 2, 0)},
+    {"CapOnATrianglesEdge", standing_on_hull(1, 0, 0, edge_along_x, {0, 1}), segment(1, 0.5, 0)},
+    {"SideAlongATriangleThatStandsOnItsCorner", lying_on_hull(6, 0, edge_along_x, {0, 1}),
+     segment(2, 3, 0)},
+    {"SideAcrossATriangleThatStandsOnItsCorner", lying_on_hull(0, 0.5, edge_along_y, {0, 1}),
+     point(1, 0.5)},
+    {"CapOnAPyramidsTop", standing_on_hull(1, 0, 0, pyramid, {0}), point(0.25, 0.5)},
     {"SphereMeetsInAPoint",
      standing(1, Vec3::Zero(), Sphere(0.5), Pose({0.25, 0.5, -0.5}, upright), unaligned),
      point(0.25, 0.5)},
@@ -238,6 +294,95 @@ TEST(Patch, TangentCapsStayTangentInAnyOrientationAndAnywhere) {
     EXPECT_EQ(p.kind(), more > 0 ? Kind::region : Kind::point);
     expect_near(p.centroid(), q.normalized() * Vec3(30, 40, 0) + Vec3(1000, -300, 7), 1e-12);
   }
+}
+
+TEST(Patch, ADiscThatTouchesATrianglesEdgeDoesSoInAnyOrientation) {
+  // As above: coordinates that are multiples of 25 stay integers.
+  const Eigen::Quaterniond q(1, 2, 2, 4);
+  const auto turned = [&](const Vec3& v) { return Vec3((q.normalized() * v).array().round()); };
+  const Convex triangle = convex_hull(std::vector<Vec3>{{0, 0, 0}, {200, 0, 0}, {0, 150, 0}});
+  const Vec3 n = (q.normalized() * up).normalized();
+  for (const double more : {0.0, 1e-12}) {
+    const Configuration c{Cylinder(250 + more, 25), Pose(turned(Vec3(250, 275, 25)), q), triangle,
+                          Pose(Vec3::Zero(), q)};
+    const ContactPatch p = contact_patch(c, {n, parallel, unaligned, all_three});
+    EXPECT_EQ(p.kind(), more > 0 ? Kind::region : Kind::point);
+    expect_near(p.centroid(), q.normalized() * Vec3(100, 75, 0), 1e-10);
+  }
+}
+
+TEST(Patch, OfAHullNearTheEndsOfTheDoublesIsThatOfAnOrdinaryOneScaled) {
+  const auto outline = [](int exponent) {
+    const double unit = std::ldexp(1, exponent);
+    std::vector<Vec3> points = large_one;
+    for (Vec3& p : points) p *= unit;
+    const Configuration c{Cylinder(unit, unit), Pose(unit * Vec3(0, -2, 1), upright),
+                          convex_hull(points), Pose()};
+    std::vector<Vec3> result = contact_patch(c, {up, parallel, unaligned, all_three}).outline();
+    for (Vec3& p : result) p /= unit;
+    return result;
+  };
+  EXPECT_EQ(outline(0).size(), 17u);
+  for (const int exponent : {-1000, 1000}) {
+    const std::vector<Vec3> expected = outline(0), found = outline(exponent);
+    ASSERT_EQ(found.size(), expected.size());
+    for (std::size_t i = 0; i < found.size(); ++i) expect_near(found[i], expected[i]);
+  }
+}
+
+TEST(Patch, OfAHullIsAlsoFoundWithoutItsVerticesWhereAnAxisTellsTheNormal) {
+  Contact contact = standing_on_hull(1, 0, -2, large_one, {});
+  EXPECT_NEAR(contact.patch().area(), pi / 2, rounding);
+}
+
+/// The corners of a box that are farthest along a normal with this alignment to its axes, of which
+/// doubles tell the ends.
+std::vector<int> highest_corners(const Configuration& c, const OptimalNormal& normal) {
+  std::vector<int> corners;
+  for (int k = 0; k < 8; ++k) {
+    bool is_highest = true;
+    for (int i = 0; i < 3; ++i) {
+      const bool is_upper = (k >> i & 1) != 0;
+      is_highest = is_highest && (normal.to_b[i] == perpendicular ||
+                                  is_upper == (c.pose_b.rotation().col(i).dot(normal.n) > 0));
+    }
+    if (is_highest) corners.push_back(k);
+  }
+  return corners;
+}
+
+TEST(PatchOfABoxAsAHull, IsThatOfTheBox) {
+  int compared = 0;
+  for (const auto& name : pose_classes(Pair::box)) {
+    const Identity id{Pair::box, name, 20261126, 0};
+    SCOPED_TRACE(to_string(id));
+    const Configuration c = make_configuration(id), hull = with_hull(c);
+    for (const OptimalNormal& n : truth(c).normals) {
+      const SupportFeatures features = support_features(c, n);
+      if (!features.a.point_is_certain || !features.b.point_is_certain) continue;
+      ++compared;
+      const double size = larger_size(c), far = size + c.pose_a.position().norm();
+      const ContactPatch of_box = contact_patch(c, n);
+      // Along the cylinder's axis the hull finds its corners itself, exactly.
+      const std::vector<int> corners =
+          n.to_a == parallel ? std::vector<int>() : highest_corners(c, n);
+      const ContactPatch of_hull = contact_patch(hull, {n.n, n.to_a, unaligned, corners});
+      EXPECT_EQ(of_hull.kind(), of_box.kind());
+      EXPECT_NEAR(of_hull.perimeter(), of_box.perimeter(), 1e-12 * size);
+      EXPECT_NEAR(of_hull.area(), of_box.area(), 1e-12 * size * size);
+      expect_near(of_hull.centroid(), of_box.centroid(), 1e-12 * far);
+      const double epsilon = 1e-6 * smaller_size(c);
+      const ContactPatch wide = contact_patch(hull, n.n, epsilon);
+      const ContactPatch expected = contact_patch(c, n.n, epsilon);
+      EXPECT_NEAR(wide.perimeter(), expected.perimeter(), 1e-12 * size);
+      expect_near(wide.centroid(), expected.centroid(), 1e-12 * far);
+      const auto width = width_from_epsilon(hull.b, hull.pose_b, n.n, epsilon);
+      const auto width_of_box = width_from_epsilon(c.b, c.pose_b, n.n, epsilon);
+      EXPECT_EQ(width.is_a_corner, width_of_box.is_a_corner);
+      EXPECT_NEAR(width.largest, width_of_box.largest, epsilon);
+    }
+  }
+  EXPECT_GT(compared, 300);
 }
 
 }  // namespace

@@ -77,12 +77,12 @@ TEST(ConvexSet, SegmentAndPoint) {
 }
 
 TEST(ConvexPolygon, HullDropsInnerPointsAndThoseOnItsSides) {
-  const auto hull =
-      convex_hull({Vec2(0, 0), Vec2(1, 1), Vec2(2, 0), Vec2(1, 0), Vec2(2, 2), Vec2(0, 2)});
+  const auto hull = convex_hull(
+      std::vector<Vec2>{Vec2(0, 0), Vec2(1, 1), Vec2(2, 0), Vec2(1, 0), Vec2(2, 2), Vec2(0, 2)});
   EXPECT_EQ(hull.size(), 4u);
   EXPECT_EQ(ConvexSet::polygon(hull).area(), 4);
-  EXPECT_EQ(convex_hull({Vec2(0, 0), Vec2(1, 1), Vec2(3, 3)}).size(), 2u);
-  EXPECT_EQ(convex_hull({Vec2(1, 1), Vec2(1, 1)}).size(), 1u);
+  EXPECT_EQ(convex_hull(std::vector<Vec2>{Vec2(0, 0), Vec2(1, 1), Vec2(3, 3)}).size(), 2u);
+  EXPECT_EQ(convex_hull(std::vector<Vec2>{Vec2(1, 1), Vec2(1, 1)}).size(), 1u);
 }
 
 TEST(ConvexPolygon, IntersectionOfSquares) {
@@ -100,6 +100,41 @@ TEST(ConvexPolygon, IntersectionWithASegmentIsWhatLiesInside) {
     ASSERT_EQ(common.size(), 2u);
     EXPECT_EQ((common[0] - common[1]).norm(), 1);
   }
+}
+
+const Vec3 seen_along(0, 0, 1);
+
+SupportFeature a_disc(const mpq_class& x, const mpq_class& y, const mpq_class& radius) {
+  SupportFeature f;
+  f.kind = SupportFeature::Kind::disc;
+  f.centre = {x, y, 0};
+  f.u = {0, 0, 3};  // its length has no meaning
+  f.radius = radius;
+  return f;
+}
+SupportFeature a_segment(const mpq_class& x, const mpq_class& y, const mpq_class& dx,
+                         const mpq_class& dy) {
+  SupportFeature f;
+  f.kind = SupportFeature::Kind::segment;
+  f.centre = {x, y, 0};
+  f.u = {dx, dy, 0};
+  return f;
+}
+SupportFeature a_rectangle(const mpq_class& a, const mpq_class& b) {
+  SupportFeature f;
+  f.kind = SupportFeature::Kind::polygon;
+  f.corners = {{-a, -b, 0}, {a, -b, 0}, {a, b, 0}, {-a, b, 0}};
+  return f;
+}
+ConvexSet shared(const SupportFeature& a, const SupportFeature& b) {
+  return overlap(a, b, seen_along)->shape;
+}
+/// In the plane of the features.
+Vec2 middle_shared(const SupportFeature& a, const SupportFeature& b) {
+  const Placement at = *overlap(a, b, seen_along);
+  const Vec3 e1 = at.e1.normalized(), e2 = seen_along.cross(e1);
+  const Vec2 p = at.shape.centroid();
+  return (at.origin + p.x() * e1 + p.y() * e2).head<2>();
 }
 
 // Overlaps of discs, rectangles and segments against CGAL's exact polygons of circles and lines, on
@@ -191,7 +226,7 @@ TEST(FeatureOverlap, DiscsAreAsCgalHasThem) {
     for (int s = 1; s <= 4; ++s) {
       for (int x = 0; x <= 9; ++x) {
         SCOPED_TRACE(testing::Message() << r << ' ' << s << ' ' << x);
-        expect_same(overlap_of_discs(r, s, x * x),
+        expect_same(shared(a_disc(0, 0, r), a_disc(x, 0, s)),
                     intersection(exact_disc(0, 0, r), exact_disc(x, 0, s)));
       }
     }
@@ -206,7 +241,7 @@ TEST(FeatureOverlap, DiscAndRectangleAreAsCgalHasThem) {
   for (int i = 0; i < 1500; ++i) {
     const int x = draw(-7, 7), y = draw(-7, 7), r = draw(1, 6), a = draw(1, 6), b = draw(1, 6);
     SCOPED_TRACE(testing::Message() << x << ' ' << y << ' ' << r << ' ' << a << ' ' << b);
-    expect_same(overlap_of_disc_and_rectangle(x, y, r, a, b),
+    expect_same(shared(a_disc(x, y, r), a_rectangle(a, b)),
                 intersection(exact_disc(x, y, r), exact_rectangle(a, b)));
   }
 }
@@ -229,15 +264,15 @@ TEST(FeatureOverlap, BoundariesAreClosed) {
   std::uniform_real_distribution<double> anywhere(-3, 3), length(0.1, 3);
   for (int i = 0; i < 5000; ++i) {
     const double x = anywhere(random), y = anywhere(random), r = length(random);
-    expect_closed(overlap_of_disc_and_rectangle(x, y, r, length(random), length(random)));
-    expect_closed(overlap_of_discs(r, length(random), x * x));
+    expect_closed(shared(a_disc(x, y, r), a_rectangle(length(random), length(random))));
+    expect_closed(shared(a_disc(0, 0, r), a_disc(x, 0, length(random))));
   }
 }
 
 TEST(FeatureOverlap, ACornerJustWithinTheCircleLeavesNoFullTurn) {
   // The circle passes the corner (3, 4) at 1e-16 of its radius, on either side.
   for (const double r : {std::nextafter(5, 4), 5.0, std::nextafter(5, 6)}) {
-    const ConvexSet set = overlap_of_disc_and_rectangle(0, 0, r, 3, 4);
+    const ConvexSet set = shared(a_disc(0, 0, r), a_rectangle(3, 4));
     EXPECT_NEAR(set.area(), 48, 1e-13);
     EXPECT_NEAR(set.perimeter(), 28, 1e-13);
   }
@@ -252,7 +287,7 @@ TEST(FeatureOverlap, DiscAndSegmentOnSmallIntegers) {
           const double half = r >= off ? std::sqrt(r * r - off * off) : -1;
           const double lo = std::max<double>(-h, along - half);
           const double hi = std::min<double>(h, along + half);
-          const ConvexSet set = overlap_of_disc_and_segment(along, off * off, r, h);
+          const ConvexSet set = shared(a_segment(0, 0, h, 0), a_disc(along, off, r));
           const bool is_segment = half > 0 && lo < hi;
           EXPECT_EQ(set.kind(), is_segment ? ConvexSet::Kind::segment : ConvexSet::Kind::point);
           EXPECT_NEAR(set.perimeter(), is_segment ? hi - lo : 0, 1e-14 * 10);
@@ -264,15 +299,14 @@ TEST(FeatureOverlap, DiscAndSegmentOnSmallIntegers) {
 
 TEST(FeatureOverlap, SegmentAndRectangle) {
   using Kind = ConvexSet::Kind;
+  const SupportFeature square = a_rectangle(2, 2);
   // Across the corner, diagonally; through the corner; beyond it.
-  EXPECT_NEAR(overlap_of_segment_and_rectangle(1, 1, 1, -1, 5, 2, 2).perimeter(), 2 * std::sqrt(2),
-              1e-14);
-  const ConvexSet corner = overlap_of_segment_and_rectangle(2, 2, 1, -1, 5, 2, 2);
-  EXPECT_EQ(corner.kind(), Kind::point);
-  EXPECT_EQ(corner.centroid(), Vec2(2, 2));
-  EXPECT_EQ(overlap_of_segment_and_rectangle(3, 2, 1, -1, 5, 2, 2).kind(), Kind::point);
-  EXPECT_EQ(overlap_of_segment_and_rectangle(0, 0, 1, 0, 1, 2, 2).perimeter(), 2);
-  EXPECT_EQ(overlap_of_segment_and_rectangle(3, 0, 1, 0, 1, 2, 2).centroid(), Vec2(2, 0));
+  EXPECT_NEAR(shared(a_segment(1, 1, 5, -5), square).perimeter(), 2 * std::sqrt(2), 1e-14);
+  EXPECT_EQ(shared(a_segment(2, 2, 5, -5), square).kind(), Kind::point);
+  EXPECT_EQ(middle_shared(a_segment(2, 2, 5, -5), square), Vec2(2, 2));
+  EXPECT_EQ(shared(a_segment(3, 2, 5, -5), square).kind(), Kind::point);
+  EXPECT_EQ(shared(a_segment(0, 0, 1, 0), square).perimeter(), 2);
+  EXPECT_EQ(middle_shared(a_segment(3, 0, 1, 0), square), Vec2(2, 0));
 }
 
 }  // namespace

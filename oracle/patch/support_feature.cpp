@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
+#include <variant>
 
 #include "oracle/ball.hpp"
 
@@ -40,6 +40,7 @@ struct PosedShape {
   const ExactPose exact;
   const Outward& out;
   const std::array<Alignment, 3>& alignment;  ///< to the body's axes
+  std::vector<int> support;                   ///< OptimalNormal::support_b of body B
 
   Vec3 unit_axis(int i) const { return rounded(exact.axes[i]) / exact.norm.get_d(); }
   /// +1 or −1: the end of an axis, not perpendicular to the normal, that is farther out.
@@ -53,8 +54,22 @@ struct PosedShape {
     SupportFeature f;
     f.kind = kind;
     f.centre = exact.position;
-    f.norm = exact.norm;
     f.u = exact.axes[2];
+    return f;
+  }
+  /// Along the axis of a body of revolution.
+  SupportFeature generator(double half_length) const {
+    SupportFeature f = centred(Kind::segment);
+    f.u = mpq_class(half_length) / exact.norm * f.u;
+    return f;
+  }
+  /// Of corners in order, either way round.
+  SupportFeature polygon(std::vector<RationalVector> corners) const {
+    const RationalVector area = cross(corners[1] - corners[0], corners[2] - corners[1]);
+    if (dot(area, out.direction) < 0) std::reverse(corners.begin(), corners.end());
+    SupportFeature f;
+    f.kind = Kind::polygon;
+    f.corners = std::move(corners);
     return f;
   }
 };
@@ -66,11 +81,8 @@ SupportFeature feature(const Cylinder& shape, const PosedShape& body) {
       f.radius = shape.radius();
       return f;
     }
-    case Alignment::perpendicular: {
-      SupportFeature f = body.centred(Kind::segment);
-      f.half_u = shape.half_length();
-      return f;
-    }
+    case Alignment::perpendicular:
+      return body.generator(shape.half_length());
     case Alignment::oblique:
       break;
   }
@@ -86,11 +98,7 @@ SupportFeature feature(const Cylinder& shape, const PosedShape& body) {
 }
 
 SupportFeature feature(const Capsule& shape, const PosedShape& body) {
-  if (body.alignment[2] == Alignment::perpendicular) {
-    SupportFeature f = body.centred(Kind::segment);
-    f.half_u = shape.half_length();
-    return f;
-  }
+  if (body.alignment[2] == Alignment::perpendicular) return body.generator(shape.half_length());
   SupportFeature f;
   f.point = body.pose.position() + body.end(2) * shape.half_length() * body.unit_axis(2) +
             shape.radius() * body.out.unit;
@@ -107,29 +115,71 @@ SupportFeature feature(const Sphere& shape, const PosedShape& body) {
 SupportFeature feature(const Box& shape, const PosedShape& body) {
   SupportFeature f = body.centred(Kind::point);
   f.point = body.pose.position();
-  std::vector<int> across;
+  std::vector<RationalVector> across;  // halves of the box
   for (int i = 0; i < 3; ++i) {
+    const mpq_class half(shape.half_extents()[i]);
+    const RationalVector along = half / body.exact.norm * body.exact.axes[i];
     if (body.alignment[i] == Alignment::perpendicular) {
-      across.push_back(i);
+      across.push_back(along);
       continue;
     }
-    const double half = body.end(i) * shape.half_extents()[i];
-    f.point += half * body.unit_axis(i);
-    f.centre = f.centre + mpq_class(half) / f.norm * body.exact.axes[i];
+    f.point += body.end(i) * shape.half_extents()[i] * body.unit_axis(i);
+    f.centre = f.centre + body.end(i) * along;
     f.point_is_certain = f.point_is_certain && body.is_certain(i);
   }
   if (across.empty()) return f;
-  f.kind = across.size() == 1 ? Kind::segment : Kind::rectangle;
-  f.u = body.exact.axes[across[0]];
-  f.half_u = shape.half_extents()[across[0]];
+  f.kind = Kind::segment;
+  f.u = across[0];
   if (across.size() == 1) return f;
-  f.v = body.exact.axes[across[1]];
-  f.half_v = shape.half_extents()[across[1]];
-  return f;
+  const RationalVector sum = across[0] + across[1], difference = across[0] - across[1];
+  return body.polygon(
+      {f.centre - sum, f.centre + difference, f.centre + sum, f.centre - difference});
 }
 
-SupportFeature feature(const Convex&, const PosedShape&) {
-  throw std::logic_error("convex: later stage");
+/// The vertices that lie in the support plane, as far as the direction tells.
+std::vector<int> highest_vertices(const Convex& shape, const PosedShape& body) {
+  const auto& axes = body.exact.axes;
+  const RationalVector& n = body.out.direction;
+  const RationalVector local{dot(axes[0], n), dot(axes[1], n), dot(axes[2], n)};
+  std::vector<int> highest;
+  mpq_class most;
+  for (std::size_t i = 0; i < shape.vertices().size(); ++i) {
+    const mpq_class height = dot(local, exact(shape.vertices()[i]));
+    if (highest.empty() || height > most) most = height, highest.clear();
+    if (height == most) highest.push_back(static_cast<int>(i));
+  }
+  return highest;
+}
+
+SupportFeature feature(const Convex& shape, const PosedShape& body) {
+  const auto corner = [&](int i) {
+    return body.exact.position +
+           1 / body.exact.norm * body.exact.turned(exact(shape.vertices()[i]));
+  };
+  const bool is_known = !body.support.empty();
+  const std::vector<int> support = is_known ? body.support : highest_vertices(shape, body);
+  if (support.size() == 2) {
+    const RationalVector p = corner(support[0]), q = corner(support[1]);
+    SupportFeature f;
+    f.kind = Kind::segment;
+    f.centre = mpq_class(1, 2) * (p + q);
+    f.u = mpq_class(1, 2) * (q - p);
+    return f;
+  }
+  for (const Convex::Face& face : shape.faces()) {
+    const auto is_of_face = [&](int i) {
+      return std::find(face.vertices.begin(), face.vertices.end(), i) != face.vertices.end();
+    };
+    if (support.size() != face.vertices.size()) continue;
+    if (!std::all_of(support.begin(), support.end(), is_of_face)) continue;
+    std::vector<RationalVector> corners;
+    for (const int i : face.vertices) corners.push_back(corner(i));
+    return body.polygon(std::move(corners));
+  }
+  SupportFeature f;
+  f.point = rounded(corner(support[0]));
+  f.point_is_certain = support.size() == 1 && (is_known || body.out.is_exact);
+  return f;
 }
 
 SupportFeature feature(const Plane&, const PosedShape& body) { return body.centred(Kind::plane); }
@@ -139,12 +189,15 @@ SupportFeature feature(const Plane&, const PosedShape& body) { return body.centr
 Outward from_b_to_a(const Configuration& c, const OptimalNormal& normal, const ExactPose& a,
                     const ExactPose& b) {
   const auto towards_a = [&](const RationalVector& axis) {
-    const bool same_way = rounded(axis).dot(normal.n) > 0;
-    return Outward{same_way ? axis : -axis, true, normal.n};
+    return Outward{dot(axis, exact(normal.n)) > 0 ? axis : -axis, true, normal.n};
   };
-  if (const auto* plane = std::get_if<Plane>(&c.b)) {
-    const RationalVector local = exact(plane->normal());
-    return towards_a(local.x * b.axes[0] + local.y * b.axes[1] + local.z * b.axes[2]);
+  if (const auto* plane = std::get_if<Plane>(&c.b))
+    return towards_a(b.turned(exact(plane->normal())));
+  if (normal.support_b.size() > 2) {  // any three corners of a face span it
+    const auto corner = [&](int k) {
+      return exact(std::get<Convex>(c.b).vertices()[normal.support_b[k]]);
+    };
+    return towards_a(b.turned(cross(corner(1) - corner(0), corner(2) - corner(0))));
   }
   if (normal.to_a == Alignment::parallel) return towards_a(a.axes[2]);
   for (int i = 0; i < 3; ++i) {
@@ -160,8 +213,8 @@ SupportFeatures support_features(const Configuration& c, const OptimalNormal& no
   const Outward out_of_b = from_b_to_a(c, normal, a, b);
   const Outward out_of_a{-out_of_b.direction, out_of_b.is_exact, -out_of_b.unit};
   const std::array<Alignment, 3> to_a{Alignment::oblique, Alignment::oblique, normal.to_a};
-  const PosedShape body_a{c.pose_a, a, out_of_a, to_a};
-  const PosedShape body_b{c.pose_b, b, out_of_b, normal.to_b};
+  const PosedShape body_a{c.pose_a, a, out_of_a, to_a, {}};
+  const PosedShape body_b{c.pose_b, b, out_of_b, normal.to_b, normal.support_b};
   return {feature(c.a, body_a),
           std::visit([&](const auto& shape) { return feature(shape, body_b); }, c.b)};
 }
@@ -176,6 +229,24 @@ constexpr int chords = 96;
 double reach(double r, double lower) {
   if (lower <= 0) return 0;
   return lower < 2 * r ? 2 * std::asin(std::sqrt(lower / (2 * r))) : std::numbers::pi;
+}
+
+std::size_t highest_of(const std::vector<Vec3>& vertices, const Vec3& n) {
+  std::size_t highest = 0;
+  for (std::size_t i = 1; i < vertices.size(); ++i) {
+    if ((vertices[i] - vertices[highest]).dot(n) > 0) highest = i;
+  }
+  return highest;
+}
+
+/// How much lower each vertex is than the highest one along n: differences of vertices come first,
+/// so that nothing cancels.
+std::vector<double> below_the_highest(const std::vector<Vec3>& vertices, const Vec3& n) {
+  const Vec3& top = vertices[highest_of(vertices, n)];
+  std::vector<double> below;
+  below.reserve(vertices.size());
+  for (const Vec3& v : vertices) below.push_back(std::max(0.0, (top - v).dot(n)));
+  return below;
 }
 
 struct Part {
@@ -250,35 +321,36 @@ struct Part {
   }
 
   void add(const Box& shape, const Vec3& centre, const Eigen::Matrix3d& axes) {
-    const Vec3& h = shape.half_extents();
-    const Vec3 along = axes.transpose() * n;
-    const auto corner = [&](int bits) {
-      return Vec3(bits & 1 ? h.x() : -h.x(), bits & 2 ? h.y() : -h.y(), bits & 4 ? h.z() : -h.z());
-    };
-    // A corner is lower than the highest one by the sum of 2 h |axis·n| over the axes at whose
-    // lower end it lies: a sum without cancellation.
-    const auto below = [&](int bits) {
-      double sum = 0;
-      for (int i = 0; i < 3; ++i) {
-        const bool lower_end = ((bits >> i & 1) != 0) != (along[i] > 0);
-        if (lower_end) sum += 2 * h[i] * std::abs(along[i]);
-      }
-      return sum;
-    };
+    std::vector<Vec3> corners;
+    std::vector<Convex::Edge> edges;
     for (int bits = 0; bits < 8; ++bits) {
-      const double depth = below(bits);
-      if (depth <= epsilon) points.push_back(centre + axes * corner(bits));
+      const Vec3 signs(bits & 1 ? 1 : -1, bits & 2 ? 1 : -1, bits & 4 ? 1 : -1);
+      corners.emplace_back(signs.cwiseProduct(shape.half_extents()));
       for (int i = 0; i < 3; ++i) {
-        const double other = below(bits ^ 1 << i);
-        if (!(depth <= epsilon && other > epsilon)) continue;
-        const double t = (epsilon - depth) / (other - depth);
-        points.push_back(centre + axes * ((1 - t) * corner(bits) + t * corner(bits ^ 1 << i)));
+        if (!(bits >> i & 1)) edges.push_back({{bits, bits | 1 << i}, {}});
       }
     }
+    add_polytope(corners, edges, centre, axes);
   }
 
-  void add(const Convex&, const Vec3&, const Eigen::Matrix3d&) {
-    throw std::logic_error("convex: later stage");
+  void add(const Convex& shape, const Vec3& centre, const Eigen::Matrix3d& axes) {
+    add_polytope(shape.vertices(), shape.edges(), centre, axes);
+  }
+
+  // The vertices in the part, and where edges leave it.
+  void add_polytope(const std::vector<Vec3>& vertices, const std::vector<Convex::Edge>& edges,
+                    const Vec3& centre, const Eigen::Matrix3d& axes) {
+    const std::vector<double> below = below_the_highest(vertices, axes.transpose() * n);
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      if (below[i] <= epsilon) points.push_back(centre + axes * vertices[i]);
+    }
+    for (const auto& [ends, faces] : edges) {
+      const auto [high, low] =
+          std::minmax(ends[0], ends[1], [&](int i, int j) { return below[i] < below[j]; });
+      if (!(below[high] <= epsilon && below[low] > epsilon)) continue;
+      const double t = (epsilon - below[high]) / (below[low] - below[high]);
+      points.push_back(centre + axes * ((1 - t) * vertices[high] + t * vertices[low]));
+    }
   }
 
   void add(const Plane&, const Vec3&, const Eigen::Matrix3d&) {}
@@ -318,8 +390,27 @@ WidthFromEpsilon width(const Box& shape, const Vec3& n, double epsilon) {
   }
   return result;
 }
-WidthFromEpsilon width(const Convex&, const Vec3&, double) {
-  throw std::logic_error("convex: later stage");
+/// By the edges of the highest vertex, as of a box.
+WidthFromEpsilon width(const Convex& shape, const Vec3& n, double epsilon) {
+  const std::vector<Vec3>& vertices = shape.vertices();
+  const int top = static_cast<int>(highest_of(vertices, n));
+  WidthFromEpsilon result{0, true};
+  std::vector<int> beside;  // the faces along edges that lie in the part
+  for (const auto& [ends, faces] : shape.edges()) {
+    if (ends[0] != top && ends[1] != top) continue;
+    const Vec3 down = vertices[top] - vertices[ends[0] + ends[1] - top];
+    const double depth = down.dot(n);
+    if (depth > epsilon) {
+      result.largest = std::max(result.largest, epsilon / depth * down.cross(n).norm());
+      continue;
+    }
+    result.is_a_corner = false;
+    for (const int face : faces) {
+      if (std::find(beside.begin(), beside.end(), face) != beside.end()) return {0, false};
+      beside.push_back(face);
+    }
+  }
+  return result;
 }
 WidthFromEpsilon width(const Plane&, const Vec3&, double) { return {0, false}; }
 

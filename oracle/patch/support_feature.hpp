@@ -17,6 +17,10 @@ using RationalVector = Vector3<mpq_class>;
 /// (Euler–Rodrigues, without the division).
 struct ExactPose {
   explicit ExactPose(const Pose& pose);
+  /// A vector of the body's frame in the world, times norm.
+  RationalVector turned(const RationalVector& v) const {
+    return v.x * axes[0] + v.y * axes[1] + v.z * axes[2];
+  }
   RationalVector position;
   std::array<RationalVector, 3> axes;
   mpq_class norm;
@@ -29,7 +33,7 @@ Vec3 rounded(const RationalVector& v);
 /// The part of a body in its support plane, seen along the normal. Exact, except for points, whose
 /// coordinates may be irrational.
 struct SupportFeature {
-  enum class Kind { point, segment, disc, rectangle, plane };
+  enum class Kind { point, segment, disc, polygon, plane };
   Kind kind = Kind::point;
 
   Vec3 point = Vec3::Zero();  ///< for a point; world coordinates
@@ -37,11 +41,12 @@ struct SupportFeature {
   /// nearly aligned with an axis.
   bool point_is_certain = true;
 
-  // For the other kinds: u and v have the length norm, half extents are metres.
-  RationalVector centre;  ///< exact up to a multiple of the normal
-  RationalVector u;       ///< along a segment, the axis of a disc, along a rectangle's side
-  RationalVector v;       ///< along a rectangle's other side
-  mpq_class norm, half_u, half_v, radius;
+  // For the other kinds, exact up to multiples of the normal; metres.
+  RationalVector centre;  ///< of a segment or disc
+  RationalVector u;       ///< half of a segment; the axis of a disc, of any length
+  mpq_class radius;
+  /// Of a polygon, counterclockwise seen from outside; each is one.
+  std::vector<RationalVector> corners;
 };
 
 /// The features of both bodies along a normal: A's lowest and B's highest.

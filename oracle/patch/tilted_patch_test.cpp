@@ -3,6 +3,7 @@
 #include <random>
 #include <vector>
 
+#include "oracle/as_hull.hpp"
 #include "oracle/patch/contact_patch.hpp"
 #include "oracle/patch/convex_set.hpp"
 #include "oracle/patch/support_feature.hpp"
@@ -102,6 +103,11 @@ double body_support(const Shape& shape, const Vec3& n) {
     return s->half_length() * std::abs(n.z()) + s->radius() * n.norm();
   }
   if (const auto* s = std::get_if<Sphere>(&shape)) return s->radius() * n.norm();
+  if (const auto* s = std::get_if<Convex>(&shape)) {
+    double highest = s->vertices()[0].dot(n);
+    for (const Vec3& v : s->vertices()) highest = std::max(highest, v.dot(n));
+    return highest;
+  }
   return std::get<Box>(shape).half_extents().dot(n.cwiseAbs());
 }
 
@@ -125,11 +131,16 @@ double part_support(const Shape& shape, const Vec3& n, double epsilon, const Vec
   return std::min(value(0), value(std::exp(lo)));
 }
 
+const std::vector<Vec3> wedge{{1, 0.5, 0.25},    {-1, 0.75, 0.25}, {1, -0.5, 0},
+                              {-1, -0.5, 0.125}, {0.75, 0, -0.25}, {-1, 0, -0.5}};
+const std::vector<Vec3> triangle{{1, 0.5, 0.25}, {-1, 0.75, 0.25}, {0.5, -0.5, 0}};
+
 TEST(TiltedPatch, PartsHaveTheSupportThatDualityGivesThem) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> symmetric(-1, 1), exponent(-5, 0.5);
-  const Shape shapes[] = {Cylinder(0.5, 1), Cylinder(1, 0.1), Sphere(0.7), Capsule(0.4, 1),
-                          Box(Vec3(1, 0.5, 0.2))};
+  const Shape shapes[] = {Cylinder(0.5, 1),     Cylinder(1, 0.1),       Sphere(0.7),
+                          Capsule(0.4, 1),      Box(Vec3(1, 0.5, 0.2)), convex_hull(wedge),
+                          convex_hull(triangle)};
   for (int i = 0; i < 300; ++i) {
     for (const Shape& shape : shapes) {
       const Eigen::Quaterniond q(symmetric(random), symmetric(random), symmetric(random),
@@ -257,9 +268,15 @@ TEST(TiltedPatch, AnyNormalAndEpsilonGiveAFinitePatch) {
                 Eigen::Quaterniond(1, lean * symmetric(random), lean * symmetric(random), 0));
   };
   for (int i = 0; i < 4000; ++i) {
-    const Shape others[] = {Cylinder(length(), length()), Plane(upward, length()), Sphere(length()),
-                            Capsule(length(), length()), Box(Vec3(length(), length(), length()))};
-    const Configuration c{Cylinder(length(), length()), pose(), others[i % 5], pose()};
+    const Shape others[] = {Cylinder(length(), length()),
+                            Plane(upward, length()),
+                            Sphere(length()),
+                            Capsule(length(), length()),
+                            Box(Vec3(length(), length(), length())),
+                            as_hull(Box(Vec3(length(), length(), length()))),
+                            convex_hull(triangle)};
+    const Configuration c{Cylinder(length(), length()), pose(),
+                          others[i % static_cast<int>(std::size(others))], pose()};
     const double tilt = std::pow(10, exponent(random));
     const Vec3 n = (upward + tilt * Vec3(symmetric(random), symmetric(random), 0)).normalized();
     const ContactPatch p = contact_patch(c, n, std::pow(10, exponent(random)));
@@ -300,6 +317,19 @@ TEST(WidthFromEpsilon, CornersHaveNoOther) {
   EXPECT_FALSE(width(Capsule(0.5, 1), along_x).is_a_corner);
   EXPECT_FALSE(width(Box(Vec3(1, 1, 1)), leaning(0.5)).is_a_corner);  // an edge
   EXPECT_TRUE(width(Box(Vec3(1, 1, 1)), Eigen::Quaterniond(1, 0.3, 0.2, 0)).is_a_corner);
+}
+
+TEST(WidthFromEpsilon, OfATriangleIsThatOfItsEdges) {
+  const Convex hull = convex_hull(std::vector<Vec3>{{0, 0, 0}, {4, 0, 0}, {0, 3, 0}});
+  EXPECT_EQ(width(hull, upright).largest, 0);
+  EXPECT_FALSE(width(hull, upright).is_a_corner);
+  // Its edge along y is down at a slope of 1e-4.
+  EXPECT_NEAR(width(hull, leaning(1e-4)).largest, 1e-2, 1e-6);
+  EXPECT_FALSE(width(hull, leaning(1e-4)).is_a_corner);
+  EXPECT_TRUE(width(hull, Eigen::Quaterniond(1, 0.3, 0.2, 0)).is_a_corner);
+  // On edge, with a side up: nothing but that side.
+  EXPECT_LE(width(hull, about(Vec3(0, 1, 0), pi / 2)).largest, e);
+  EXPECT_FALSE(width(hull, about(Vec3(0, 1, 0), pi / 2)).is_a_corner);
 }
 
 }  // namespace
