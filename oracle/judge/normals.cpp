@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <stdexcept>
 #include <variant>
 
 namespace touchstone {
@@ -36,7 +35,8 @@ std::optional<Vec3> nearest_within(const NormalFamily& family, const Vec3& n) {
   return is_within ? std::optional(member) : std::nullopt;
 }
 
-/// Half the extent along a direction, which is given in the body's frame.
+/// Half the extent along a direction, which is given in the body's frame; of a hull, how far it
+/// reaches that way from the middle of its extents.
 struct HalfExtent {
   Vec3 n;
 
@@ -48,7 +48,11 @@ struct HalfExtent {
   }
   double operator()(const Sphere& s) const { return s.radius() * n.norm(); }
   double operator()(const Box& s) const { return s.half_extents().dot(n.cwiseAbs()); }
-  double operator()(const Convex&) const { throw std::logic_error("convex: later stage"); }
+  double operator()(const Convex& s) const {
+    double farthest = -std::numeric_limits<double>::infinity();
+    for (const Vec3& v : s.vertices()) farthest = std::max(farthest, (v - s.middle()).dot(n));
+    return farthest;
+  }
   double operator()(const Plane&) const { return std::numeric_limits<double>::infinity(); }
 };
 
@@ -57,7 +61,11 @@ struct Circumradius {
   double operator()(const Capsule& s) const { return s.radius() + s.half_length(); }
   double operator()(const Sphere& s) const { return s.radius(); }
   double operator()(const Box& s) const { return s.half_extents().norm(); }
-  double operator()(const Convex&) const { throw std::logic_error("convex: later stage"); }
+  double operator()(const Convex& s) const {
+    double farthest = 0;
+    for (const Vec3& v : s.vertices()) farthest = std::max(farthest, (v - s.middle()).norm());
+    return farthest;
+  }
   double operator()(const Plane&) const { return std::numeric_limits<double>::infinity(); }
 };
 

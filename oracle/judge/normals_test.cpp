@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
+#include "oracle/as_hull.hpp"
 #include "oracle/judge/made_answers.hpp"
 
 namespace touchstone {
@@ -104,6 +105,24 @@ TEST(FeltRegret, OfANormalAcrossIsWrongHoweverDeepTheBodiesAre) {
   // All directions across the axis tie, and the one between them and the axis is none of them.
   const Configuration concentric{Cylinder(1, 1), Pose(), Sphere(1), Pose()};
   EXPECT_GT(*along(concentric, Vec3(0, 0.6, 0.8)).normal_regret, 0.3);
+}
+
+TEST(FeltRegret, OfABoxAsAHullIsThatOfTheBox) {
+  // The hull's frame is anywhere; what a large whole regret leaves is felt.
+  const Vec3 away(3, -1, 2);
+  const Vec3 half(0.5, 0.25, 0.125);
+  std::vector<Vec3> corners = as_hull(Box(half)).vertices();
+  for (Vec3& v : corners) v += away;
+  const Pose at({0.125, 0.25, 1.125}, {1, 0, 0, 0});
+  const Configuration box{Cylinder(1, 1), Pose(), Box(half), at};
+  const Configuration hull{box.a, box.pose_a, oracle::convex_hull(corners),
+                           Pose(at.position() - away, at.orientation())};
+  const oracle::Truth truth = oracle::truth(box);
+  constexpr double whole = 1e3;
+  for (const double degrees : {1e-3, 1.0, 60.0, 150.0}) {
+    const Vec3 n = turned(truth.normals.front().n, Vec3(0.6, 0.8, 0), degrees);
+    EXPECT_NEAR(felt_regret(hull, truth, n, whole), felt_regret(box, truth, n, whole), 1e-14);
+  }
 }
 
 TEST(FeltRegret, OfANormalDoesNotGrowWithAFloor) {

@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
-#include <stdexcept>
 #include <vector>
 
 #include "oracle/judge/normals.hpp"
@@ -21,6 +20,33 @@ namespace {
 double outside_of_all(double x, double y, double z) {
   const double outside = std::hypot(std::max(x, 0.0), std::max(y, 0.0), std::max(z, 0.0));
   return outside > 0 ? outside : std::max({x, y, z});
+}
+
+/// The point of a hull's surface nearest to the origin, with the vertices given relative to that,
+/// in multiples of `unit`.
+Vec3 nearest_on_surface(const Convex& s, const std::vector<Vec3>& vertices, double unit) {
+  Vec3 nearest = vertices[0];
+  const auto consider = [&](const Vec3& q) {
+    if (q.squaredNorm() < nearest.squaredNorm()) nearest = q;
+  };
+  for (const Convex::Edge& edge : s.edges()) {
+    const Vec3& from = vertices[edge.vertices[0]];
+    const Vec3 along = vertices[edge.vertices[1]] - from;
+    consider(from + std::clamp(-from.dot(along) / along.squaredNorm(), 0.0, 1.0) * along);
+  }
+  // So far away a face is no nearer than its edges, to an ulp, and rounding could move it anywhere.
+  constexpr double far = 1e8;
+  if (nearest.norm() > far * (s.half_extents() / unit).norm()) return nearest;
+  for (const Convex::Face& face : s.faces()) {
+    bool is_above = true;  // or below
+    for (std::size_t i = 0; i < face.vertices.size() && is_above; ++i) {
+      const Vec3& from = vertices[face.vertices[i]];
+      const Vec3& to = vertices[face.vertices[(i + 1) % face.vertices.size()]];
+      is_above = from.cross(to - from).dot(face.normal) >= 0;
+    }
+    if (is_above) consider(vertices[face.vertices[0]].dot(face.normal) * face.normal);
+  }
+  return nearest;
 }
 
 struct Distance {
@@ -42,7 +68,23 @@ struct Distance {
     const Vec3 beyond = p.cwiseAbs() - s.half_extents();
     return outside_of_all(beyond.x(), beyond.y(), beyond.z());
   }
-  double operator()(const Convex&) const { throw std::logic_error("convex: later stage"); }
+  double operator()(const Convex& s) const {
+    // In multiples of a power of two near the distance's size, so that squares do not overflow.
+    const double largest = (p - s.middle()).cwiseAbs().maxCoeff() + largest_half_extent(s);
+    const double unit = std::ldexp(1.0, std::min(std::ilogb(largest), 1023));
+    std::vector<Vec3> vertices;
+    Vec3 mean = Vec3::Zero();
+    for (const Vec3& v : s.vertices()) {
+      vertices.emplace_back(v / unit - p / unit);
+      mean += vertices.back() / static_cast<double>(s.vertices().size());
+    }
+    const Vec3 nearest = nearest_on_surface(s, vertices, unit);
+    // Inside, the mean of the vertices is on the same side of the nearest point, which no normal of
+    // a thin face has to tell. Far away, rounding would.
+    const bool is_near = ((p - s.middle()).cwiseAbs().array() <= s.half_extents().array()).all();
+    const bool is_inside = is_near && !s.is_flat() && nearest.dot(nearest - mean) > 0;
+    return unit * (is_inside ? -nearest.norm() : nearest.norm());
+  }
   double operator()(const Plane& s) const { return s.unit_normal().dot(p) - s.unit_displacement(); }
 };
 

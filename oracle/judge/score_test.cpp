@@ -3,9 +3,11 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
+#include <random>
 #include <set>
 #include <string>
 
+#include "oracle/as_hull.hpp"
 #include "oracle/judge/made_answers.hpp"
 
 namespace touchstone {
@@ -216,6 +218,63 @@ TEST(PointDistance, OfEveryShape) {
   EXPECT_DOUBLE_EQ(distance(Box({1, 1, 1}), {5, 2, 7}), std::hypot(3, 3));
   EXPECT_DOUBLE_EQ(distance(Box({1, 2, 3}), {1, 2, 3}), -1);
   EXPECT_DOUBLE_EQ(distance(Plane({0, 0, 2}, 2), {0, 0, 5}), 1);
+}
+
+TEST(PointDistance, OfATetrahedronIsThatOnPaper) {
+  // The corner of a cube, cut by x + y + z = 1.
+  const Convex corner =
+      oracle::convex_hull(std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
+  const Pose at({1, 2, 3}, {1, 0, 0, 0});
+  const auto distance = [&](double x, double y, double z) {
+    return point_distance(corner, at, Vec3(1 + x, 2 + y, 3 + z));
+  };
+  constexpr double rounding = 1e-15;
+  const double root3 = std::sqrt(3);
+  EXPECT_NEAR(distance(0.25, 0.25, 0.25), -0.25 / root3, rounding);  // below the slanted face
+  EXPECT_NEAR(distance(0.125, 0.25, 0.25), -0.125, rounding);
+  EXPECT_NEAR(distance(1, 1, 1), 2 / root3, rounding);  // off a face
+  EXPECT_NEAR(distance(0.25, -3, 0.25), 3, rounding);   // off another
+  EXPECT_NEAR(distance(0.5, -3, -4), 5, rounding);      // off an edge
+  EXPECT_NEAR(distance(-2, -1, -2), 3, rounding);       // off a corner
+  EXPECT_NEAR(distance(0.25, 0.25, 0), 0, rounding);    // on a face
+  EXPECT_NEAR(distance(0.5, 0, 0), 0, rounding);        // on an edge
+  EXPECT_EQ(distance(0, 1, 0), 0);                      // at a corner
+}
+
+TEST(PointDistance, OfAFlatPolygonIsPositiveOnBothSides) {
+  const Convex square =
+      oracle::convex_hull(std::vector<Vec3>{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}});
+  for (const double side : {-1.0, 1.0}) {
+    EXPECT_EQ(point_distance(square, Pose(), Vec3(0.5, 0.25, 0.125 * side)), 0.125);
+    EXPECT_EQ(point_distance(square, Pose(), Vec3(4, 0, 4 * side)), 5);
+  }
+  EXPECT_EQ(point_distance(square, Pose(), Vec3(0.5, 0.25, 0)), 0);
+  EXPECT_EQ(point_distance(square, Pose(), Vec3(3, 0.25, 0)), 2);
+}
+
+TEST(PointDistance, OfABoxAsAHullIsThatOfTheBox) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> symmetric(-1, 1);
+  const Box box({1, 0.5, 0.25});
+  const Convex hull = as_hull(box);
+  const Pose pose({0.5, -1, 2}, {1, 0.3, -0.2, 0.5});
+  for (int i = 0; i < 2000; ++i) {
+    const double reach = i % 2 ? 1 : 3;
+    const Vec3 p =
+        pose.position() + reach * Vec3(symmetric(random), symmetric(random), symmetric(random));
+    EXPECT_NEAR(point_distance(hull, pose, p), point_distance(box, pose, p), 1e-14);
+  }
+  for (const double far : {1e6, 1e9, 1e12, 1e15, 1e16, 1e300}) {
+    const Vec3 p = far * Vec3(symmetric(random), symmetric(random), 1);
+    EXPECT_NEAR(point_distance(hull, pose, p) / point_distance(box, pose, p), 1, 1e-15) << far;
+  }
+}
+
+TEST(Score, ErrorsAreRelativeToTheSizesOfAHullToo) {
+  const Configuration hull = with_hull(standing);
+  EXPECT_EQ(error_size(hull, {}), error_size(standing, {}));
+  const ts_point point{{0.2, 0, 1 + 6e-5}, {0, 0, 1}, 2e-5};
+  EXPECT_NEAR(point_outside(hull, point), point_outside(standing, point), 1e-15);
 }
 
 /// Two crossed cans; two coaxial ones, along whose sides all radial normals tie; and one in the
