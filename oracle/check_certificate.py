@@ -20,17 +20,20 @@ MAX_BYTES = 16 * 2**20  # of a file
 MAX_DIGITS = 4000  # of a numerator or a denominator
 MAX_CELLS = 100_000
 MAX_LEVEL = 1000  # quarterings from a face of the cube down to a cell
+MAX_VERTICES = 4096
 ROOT_BITS = 600  # roots are bounded to a relative 2^-600
 
 FRACTION = re.compile(rf"(-?[0-9]{{1,{MAX_DIGITS}}})(?:/([1-9][0-9]{{0,{MAX_DIGITS - 1}}}))?")
 CELL = re.compile(rf"[0-5][0-3]{{0,{MAX_LEVEL}}}")
+VERTEX = re.compile(r"0|[1-9][0-9]{0,3}")
 # What the C function strtod reads without leaving a rest: so does `touchstone solve`.
 DECIMAL = re.compile(r"[+-]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+-]?[0-9]+)?")
 HEXADECIMAL = re.compile(
     r"[+-]?0[xX]([0-9a-fA-F]+(\.[0-9a-fA-F]*)?|\.[0-9a-fA-F]+)([pP][+-]?[0-9]+)?")
 
 SHAPES = {"cylinder": ("radius", "half_length"), "capsule": ("radius", "half_length"),
-          "sphere": ("radius",), "box": ("half_extents",), "plane": ("normal", "displacement")}
+          "sphere": ("radius",), "box": ("half_extents",), "plane": ("normal", "displacement"),
+          "convex": ("vertices",)}
 LENGTHS = {"half_extents": 3, "normal": 3, "position": 3, "orientation": 4}  # the rest are numbers
 IDENTITY = {"position": [0.0, 0.0, 0.0], "orientation": [1.0, 0.0, 0.0, 0.0]}
 
@@ -128,6 +131,8 @@ def read_shape(value, field):
     kind = value.get("shape")
     require(isinstance(kind, str) and kind in SHAPES, field + ".shape", kind, " or ".join(SHAPES))
     members(value, field, ("shape", *SHAPES[kind]))
+    if kind == "convex":
+        return {"shape": kind, "vertices": read_vertices(value["vertices"], field + ".vertices")}
     numbers = doubles(value, field, SHAPES[kind])
     if kind == "plane":
         require(any(numbers["normal"]), f"{field}.normal is zero")
@@ -135,6 +140,16 @@ def read_shape(value, field):
         for name, x in numbers.items():
             require((min(x) if name in LENGTHS else x) > 0, f"{field}.{name} is not positive")
     return {"shape": kind, **numbers}
+
+
+def read_vertices(value, field):
+    require(isinstance(value, list) and 3 <= len(value) <= MAX_VERTICES,
+            field, value, f"an array of 3 to {MAX_VERTICES} points")
+    vertices = [array(v, f"{field}[{i}]", 3, double) for i, v in enumerate(value)]
+    steps = [[x - y for x, y in zip(v, vertices[0])] for v in vertices]
+    along = next(filter(any, steps), steps[0])
+    require(any(any(cross(along, step)) for step in steps), f"{field} are on one line")
+    return vertices
 
 
 def read_pose(value, field):
@@ -176,6 +191,10 @@ def dot(v, w):
     return sum(x * y for x, y in zip(v, w))
 
 
+def cross(v, w):
+    return [v[1] * w[2] - v[2] * w[1], v[2] * w[0] - v[0] * w[2], v[0] * w[1] - v[1] * w[0]]
+
+
 def integers(v):
     """Integers, and the least d > 0 with v = integers / d."""
     d = lcm(*(x.denominator for x in v))
@@ -201,6 +220,10 @@ class Body:
         elif self.kind == "box":
             self.half_extents = shape["half_extents"]
             self.size = max(self.half_extents)
+        elif self.kind == "convex":
+            self.vertices = shape["vertices"]  # those of a hull; as many as there are inside it
+            axes = [list(map(float, axis)) for axis in zip(*self.vertices)]
+            self.size = Fraction(max(max(axis) / 2 - min(axis) / 2 for axis in axes))
         else:  # a sphere is a capsule of half length zero
             self.radius, self.half_length = shape["radius"], shape.get("half_length", Fraction(0))
             self.size = (max(self.radius, self.half_length) if self.kind == "cylinder"
@@ -230,9 +253,29 @@ class Body:
             return False
         return x * x + y * y + beyond * beyond <= self.radius**2
 
+    def point(self, value, field):
+        """A point in the body, given by its coordinates; in a hull as the mean of vertices, by
+        weights that are not negative."""
+        if self.kind != "convex":
+            point = vector(value, field)
+            require(self.contains(point), f"{field} is a point outside body {self.name}")
+            return point
+        require(isinstance(value, dict), field, value, "an object of vertices' weights")
+        weights = {}
+        for name, x in value.items():
+            require(VERTEX.fullmatch(name) and int(name) < len(self.vertices),
+                    field + " has a vertex that", name, "a vertex's number")
+            weights[int(name)] = weight = rational(x, f"{field}.{name}")
+            require(weight >= 0, f"{field}.{name} is negative: outside body {self.name}")
+        total = sum(weights.values())
+        require(total > 0, f"{field} has no weight")
+        return [sum(x * self.vertices[i][k] for i, x in weights.items()) / total for k in range(3)]
+
     def support_above(self, n):
         """At least the largest p·n over the body's points p about its centre, n in the world."""
         x, y, z = self.to_local(n)
+        if self.kind == "convex":
+            return max(dot(v, (x, y, z)) for v in self.vertices)
         if self.kind == "box":
             return sum(h * abs(c) for h, c in zip(self.half_extents, (x, y, z)))
         square = x * x + y * y + (0 if self.kind == "cylinder" else z * z)
@@ -245,9 +288,7 @@ def difference(a, b, entry, field):
     """w = a - b in the world for a point of each body: integers, and their common denominator."""
     terms = [integers([x - y for x, y in zip(a.centre, b.centre)])]
     for body, sign in ((a, 1), (b, -1)):
-        point = vector(entry[body.name], f"{field}.{body.name}")
-        require(body.contains(point), f"{field}.{body.name} is a point outside body {body.name}")
-        rotated, d = body.to_world(point)
+        rotated, d = body.to_world(body.point(entry[body.name], f"{field}.{body.name}"))
         terms.append(([sign * x for x in rotated], d))
     common = lcm(*(d for _, d in terms))
     return [sum(v[i] * (common // d) for v, d in terms) for i in range(3)], common

@@ -74,6 +74,20 @@ def overlap():
                        cells=[face(k) for k in range(6)])
 
 
+def overlap_with_hull():
+    """The same with the cube as a hull, and a point in it: corner k is on the upper side of axis i
+    if bit i of k is set."""
+    value = overlap()
+    cube = [[1.0 if k >> i & 1 else -1.0 for i in range(3)] for k in range(8)]
+    for name, numbers in (("configuration", cube + [[0.5, 0.0, 0.0]]),
+                          ("exact", exact(cube + [[0.5, 0.0, 0.0]]))):
+        value[name]["b"] = {"shape": "convex", "vertices": numbers}
+    for k, entry in enumerate(value["cells"]):
+        corners = [c for c in range(8) if (c >> k // 2 & 1) != k % 2]
+        entry["b"] = {str(c): "3/4" for c in corners}
+    return value
+
+
 def split(entry):
     return [{**entry, "cell": entry["cell"] + quarter} for quarter in "0123"]
 
@@ -158,7 +172,11 @@ class Reading(CheckerTest):
                             (("b",), {"shape": "plane", "normal": [0.0] * 3, "displacement": 0.0}),
                             (("b",), {"shape": "box", "half_extents": [1.0, 1.0, 0.0]}),
                             (("b",), {"shape": "capsule", "radius": 1.0, "half_length": 0.0}),
-                            (("a",), {"shape": "sphere", "radius": 1.0})):
+                            (("a",), {"shape": "sphere", "radius": 1.0}),
+                            (("b",), {"shape": "convex", "vertices": [[0.0] * 3] * 4097}),
+                            (("b",), {"shape": "convex", "vertices": [[0.0] * 3, [1.0] * 3]}),
+                            (("b",), {"shape": "convex",
+                                      "vertices": [[x, 2 * x, 3 * x] for x in (1.0, 1.0, 2.0)]})):
             with self.subTest(path=path, value=value):
                 forged = changed(apart(), ("configuration", *path), value)
                 self.assert_rejected(changed(forged, ("exact", *path), exact(value)),
@@ -268,7 +286,7 @@ class Numbers(CheckerTest):
 
 class Proof(CheckerTest):
     def test_what_holds_is_accepted(self):
-        for make in (apart, above_plane, overlap):
+        for make in (apart, above_plane, overlap, overlap_with_hull):
             self.assert_accepted(make())
         wider = {**apart(), "signed_distance": ["-7", "7/2"], "grain": "1/2", "width": 5.25}
         self.assert_accepted(wider)
@@ -343,6 +361,44 @@ class Proof(CheckerTest):
         self.assert_accepted(value)
         value["pair"]["b"] = ["1/10", "0", "2"]
         self.assert_rejected(value, "outside body b")
+
+    def test_a_hulls_point_is_a_mean_of_vertices(self):
+        for weights, reason in (({}, "no weight"), ({"1": "0"}, "no weight"),
+                                ({"8": "1", "9": "0"}, "vertex's number"),
+                                ({"01": "1"}, "vertex's number"), ({"-1": "1"}, "vertex's number"),
+                                ({"1.0": "1"}, "vertex's number"), ({"1": "2", "0": "-1"}, "outside"),
+                                ({"1": 1.0}, "string with"), (["1", "0", "0"], "an object"),
+                                ({"8": "1"}, "does not bound"), ({"0": "1"}, "does not bound")):
+            with self.subTest(weights):
+                self.assert_rejected(changed(overlap_with_hull(), ("cells", 0, "b"), weights), reason)
+        # More towards a side, and still on the face.
+        self.assert_accepted(changed(overlap_with_hull(), ("cells", 0, "b"),
+                                     {"1": "2", "3": "2", "5": "2", "7": "2"}))
+
+    def test_a_hull_reaches_as_far_as_its_highest_vertex(self):
+        value = overlap_with_hull()
+        value["configuration"]["b"]["vertices"].append([0.0, 0.0, 1.5])
+        value["exact"]["b"]["vertices"].append(["0", "0", "3/2"])
+        value["width"] = 2 / 3
+        self.assert_rejected(value, "below lo")
+        self.assert_rejected({**value, "signed_distance": ["-5/2", "-1"], "grain": "1/2"}, "width")
+        self.assert_accepted({**value, "signed_distance": ["-5/2", "-1"], "grain": "1/2",
+                              "width": 1.2})
+
+    @unittest.skipUnless(len(sys.argv) > 1, "needs the program")
+    def test_of_hulls_the_program_proves_what_is_known_on_paper(self):
+        cube = [[x, y, z] for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in (-1.0, 1.0)]
+        triangle = [[3.0, 0.0, 1.0], [-2.0, 2.0, 1.0], [-2.0, -3.0, 1.0]]
+        for vertices in (cube, triangle):
+            for height, distance in ((2.5, 0.5), (1.75, -0.25), (2.0, 0)):
+                line = {"a": cylinder(0.5), "pose_a": pose([0.0, 0.0, height]),
+                        "b": {"shape": "convex", "vertices": vertices}}
+                run = subprocess.run([PROGRAM, "replay", "--certify", "-"], capture_output=True,
+                                     input=json.dumps(line).encode(), check=False)
+                self.assertEqual(run.returncode, 0, run.stderr)
+                self.assert_accepted(run.stdout)
+                lo, hi = map(Fraction, json.loads(run.stdout)["signed_distance"])
+                self.assertTrue(lo <= distance <= hi and hi - lo < 1e-29, (lo, hi))
 
     def test_the_direction_is_a_vector_and_a_planes_own(self):
         self.assert_rejected({**apart(), "normal": ["0", "0", "0"]}, "zero vector")

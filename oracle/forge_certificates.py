@@ -22,19 +22,32 @@ import check_certificate as checker  # noqa: E402
 
 PAIRS = ("plane", "sphere", "capsule", "cylinder", "box")
 CLASSES = ("general-separated", "general-shallow", "general-deep", "touching")
+# A slab as a hull, and a triangle: apart, shallow and deep.
+HULLS = ([[x, y, z] for x in (-1, 1) for y in (-2, 2) for z in (-0.5, 0.5)],
+         [[-1, -1, 0], [2, 0, 0.25], [0, 3, 0.125]])
+HEIGHTS = (2, 1.375, 0.5)
 WIDTHS = ("1e-6", "1e-30")  # the wide ones have few cells, and are checked in little time
 TRUTH_WIDTH = "1e-100"  # far below any grain: what is false by a grain is seen
 
 
+def certified(program, subject, width, line=""):
+    run = subprocess.run([program, "replay", "--certify", subject, "--width", width,
+                          "--cells", "400"], input=line.encode(), stdout=subprocess.PIPE, check=True)
+    return run.stdout.strip()
+
+
 def certificates(program):
     """The texts of true certificates."""
+    for vertices in HULLS:
+        for height in HEIGHTS:
+            yield certified(program, "-", WIDTHS[0], json.dumps({
+                "a": {"shape": "cylinder", "radius": 0.5, "half_length": 1.25},
+                "pose_a": {"position": [0.25, 0.125, height], "orientation": [4, 1, 2, 1]},
+                "b": {"shape": "convex", "vertices": vertices}}))
     for pair in PAIRS:
         for name in CLASSES:
             for width in WIDTHS if name == "general-deep" else WIDTHS[:1]:
-                run = subprocess.run([program, "replay", "--certify", f"cylinder-{pair}/{name}/20261122/0",
-                                      "--width", width, "--cells", "400"],
-                                     stdout=subprocess.PIPE, check=True)
-                yield run.stdout.strip()
+                yield certified(program, f"cylinder-{pair}/{name}/20261122/0", width)
 
 
 # Changes of the text.
@@ -147,7 +160,8 @@ def change_configuration(value, rng):
     if rng.random() < 0.15:
         name = rng.choice("ab")
         sizes = {"radius": "0x1p-1", "half_length": "0x1p+0", "half_extents": ["0x1p+0"] * 3,
-                 "normal": ["0x0p+0", "0x0p+0", "0x1p+0"], "displacement": "0x0p+0"}
+                 "normal": ["0x0p+0", "0x0p+0", "0x1p+0"], "displacement": "0x0p+0",
+                 "vertices": HULLS[1]}
         kind = rng.choice(list(checker.SHAPES))
         old = configuration[name]
         configuration[name] = {"shape": kind, **{size: old.get(size, sizes[size])
@@ -247,7 +261,7 @@ def narrow(value, rng):
         if "pair" in value or rng.random() < 0.5:  # points outside their bodies
             for entry in value.get("cells", [value.get("pair")]):
                 for name in "ab":
-                    entry[name] = [str(longer * rational(x)) for x in entry[name]]
+                    entry[name] = outside(entry[name], longer)
         else:  # cells that do not hold are left out, or replaced by some that do
             holding = [entry for entry in value["cells"] if holds(value, entry, hi)]
             missing = [len(entry["cell"]) for entry in value["cells"] if entry not in holding]
@@ -255,6 +269,14 @@ def narrow(value, rng):
             replaced = [{**largest, "cell": largest["cell"].ljust(n, "0")} for n in missing]
             value["cells"] = holding + (replaced if rng.random() < 0.5 else [])
     value["signed_distance"] = [str(lo), str(hi)]
+
+
+def outside(point, longer):
+    """A point beyond one: longer, or of a hull with a negative weight."""
+    if isinstance(point, list):
+        return [str(longer * rational(x)) for x in point]
+    first, *others = point
+    return {**{name: str(-rational(point[name]) / 8) for name in others}, first: str(longer)}
 
 
 def holds(value, entry, hi):

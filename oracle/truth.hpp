@@ -22,8 +22,8 @@ struct OptimalNormal {
   /// all others, and those of planes, spheres and convex bodies, stay oblique.
   Alignment to_a = Alignment::oblique;
   std::array<Alignment, 3> to_b{};
-  /// Against a convex body: the vertices of B (their indices in the configuration as given) that
-  /// lie exactly in its support plane along n, in rising order. Empty for other shapes.
+  /// The vertices of a convex body B that lie exactly on its support plane along n, in the order of
+  /// their numbers. Empty for other shapes.
   std::vector<int> support_b = {};
 };
 

@@ -34,6 +34,13 @@ json end_of(double value, std::string (*decimal)(const mpq_class&, int)) {
 json exact(const audit::RationalVector& v) {
   return json::array({v[0].get_str(), v[1].get_str(), v[2].get_str()});
 }
+json exact(const audit::RationalPair& pair) {
+  json weights;
+  for (const auto& [vertex, weight] : pair.weights) {
+    weights[std::to_string(vertex)] = weight.get_str();
+  }
+  return {{"a", exact(pair.a)}, {"b", pair.weights.empty() ? exact(pair.b) : weights}};
+}
 
 bool is_above(double value, const mpq_class& exact) {
   return std::isfinite(value) ? mpq_class(value) > exact : value > 0;
@@ -79,13 +86,13 @@ std::string certificate_json(const audit::Certificate& certificate,
                  {"width", width.get_d()},
                  {"normal", exact(certificate.normal)}};
   if (certificate.pair) {
-    result["pair"] = {{"a", exact(certificate.pair->a)}, {"b", exact(certificate.pair->b)}};
+    result["pair"] = exact(*certificate.pair);
     return result.dump();
   }
   result["cells"] = json::array();
   for (const auto& cell : certificate.cells) {
-    result["cells"].push_back(
-        {{"cell", cell.path}, {"a", exact(cell.pair.a)}, {"b", exact(cell.pair.b)}});
+    result["cells"].push_back(exact(cell.pair));
+    result["cells"].back()["cell"] = cell.path;
   }
   return result.dump();
 }

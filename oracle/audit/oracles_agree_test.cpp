@@ -14,6 +14,7 @@
 #include <optional>
 #include <string>
 
+#include "oracle/as_hull.hpp"
 #include "oracle/audit/enclose.hpp"
 #include "oracle/expect_confirmed.hpp"
 #include "oracle/patch/contact_patch.hpp"
@@ -139,6 +140,11 @@ TEST_P(PoseClasses, BothOraclesEncloseOneSignedDistance) {
       if (name == "general+shallow" || name == "general+apart" || name == "general+deep") {
         EXPECT_LE(e.hi - e.lo, 1.0001e-9 * larger_size(c));
       }
+      if (GetParam() != Pair::box) continue;
+      // The same body as a hull.
+      const audit::Enclosure of_hull =
+          expect_confirmed(with_hull(c), t, audit::Budget{}, is_continuum ? 1e-5 : 1e-9);
+      EXPECT_LE(of_hull.hi - of_hull.lo, widest * larger_size(c));
     }
   }
 }
