@@ -3,12 +3,14 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
+#include <numbers>
 #include <random>
 #include <set>
 #include <string>
 
 #include "oracle/as_hull.hpp"
 #include "oracle/judge/made_answers.hpp"
+#include "properties/identity.hpp"
 
 namespace touchstone {
 namespace {
@@ -329,6 +331,50 @@ TEST(Judge, MeasuresTheWholeRegretByTheCertifiedGap) {
       EXPECT_NEAR(*judge.score(contact(-0.1, n)).whole_regret, relative, 1e-15 * (1 + relative));
     }
   }
+}
+
+/// An answer with a normal some degrees off, and points of the patch, of which one is off the
+/// bodies.
+ts_answer nearly_right(const Configuration& c, const oracle::Truth& truth, double degrees) {
+  const oracle::OptimalNormal& optimal = truth.normals.front();
+  const Eigen::AngleAxisd turn(degrees / 180 * std::numbers::pi, optimal.n.unitOrthogonal());
+  ts_answer answer = contact(truth.signed_distance.midpoint(), turn * optimal.n);
+  const std::vector<Vec3> outline = oracle::contact_patch(c, optimal).outline();
+  const std::size_t count = std::min<std::size_t>(outline.size(), 3) + (degrees > 0 ? 1 : 0);
+  answer.point_count = static_cast<int>(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    answer.points[i] = answer.points[0];
+    Vec3 p = outline[i * outline.size() / count];
+    if (degrees > 0 && i == 0) p += 0.1 * smaller_size(c) * Vec3(1, -1, 1);
+    for (int k = 0; k < 3; ++k) answer.points[i].position[k] = p[k];
+  }
+  return answer;
+}
+
+TEST(Score, OfABoxAsAHullIsThatOfTheBox) {
+  int compared = 0;
+  for (const auto& name : pose_classes(Pair::box)) {
+    const Identity id{Pair::box, name, 20261126, 1};
+    SCOPED_TRACE(to_string(id));
+    const Configuration box = make_configuration(id), hull = with_hull(box);
+    const oracle::Truth truth = oracle::truth(box), of_hull = oracle::truth(hull);
+    for (const double degrees : {0.0, 1e-3, 2.0}) {
+      const ts_answer answer = nearly_right(box, truth, degrees);
+      const Score s = score(box, truth, answer, Bar{}), h = score(hull, of_hull, answer, Bar{});
+      const double rounding = 1e-13 * (1 + larger_size(box) / error_size(box, {}));
+      EXPECT_EQ(h.outcome, s.outcome);
+      EXPECT_NEAR(*h.normal_regret, *s.normal_regret, rounding);
+      EXPECT_NEAR(*h.whole_regret, *s.whole_regret, rounding);
+      EXPECT_NEAR(*h.point_error, *s.point_error, rounding);
+      EXPECT_NEAR(h.severity, s.severity, rounding);
+      EXPECT_EQ(h.coverage.has_value(), s.coverage.has_value());
+      if (h.coverage && s.coverage) {
+        EXPECT_NEAR(*h.coverage, *s.coverage, 1e-9);
+      }
+      ++compared;
+    }
+  }
+  EXPECT_GT(compared, 300);
 }
 
 /// A can that stands 0.2 deep in a half-space.
