@@ -99,6 +99,9 @@ TEST_P(Hostile, NumbersAreAnsweredAlikeByBothOraclesAndSoon) {
     EXPECT_LE(t.signed_distance.hi - t.signed_distance.lo,
               mpq_class(1e-30) * mpq_class(larger_size(c)));
     expect_no_contradiction(t.signed_distance, audit::enclose(c));
+    if (GetParam() == Pair::box) {
+      expect_no_contradiction(t.signed_distance, audit::enclose(with_hull(c)));
+    }
     if (HasFailure()) {
       showValue(c, std::cout);
       return;

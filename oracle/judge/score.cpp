@@ -70,7 +70,8 @@ struct Distance {
   }
   double operator()(const Convex& s) const {
     // In multiples of a power of two near the distance's size, so that squares do not overflow.
-    const double largest = (p - s.middle()).cwiseAbs().maxCoeff() + largest_half_extent(s);
+    const double largest = std::max((p - s.middle()).cwiseAbs().maxCoeff() + largest_half_extent(s),
+                                    std::numeric_limits<double>::min());
     const double unit = std::ldexp(1.0, std::min(std::ilogb(largest), 1023));
     std::vector<Vec3> vertices;
     Vec3 mean = Vec3::Zero();

@@ -254,6 +254,15 @@ TEST(PointDistance, OfAFlatPolygonIsPositiveOnBothSides) {
   EXPECT_EQ(point_distance(square, Pose(), Vec3(3, 0.25, 0)), 2);
 }
 
+TEST(PointDistance, OfAHullOfTheSmallestOrLargestDoublesIsANumber) {
+  for (const double size : {5e-324, 1e-310, 1e308, 1.7e308}) {
+    const Convex hull =
+        oracle::convex_hull(std::vector<Vec3>{{size, 0, 0}, {-size, 0, 0}, {0, size, 0}});
+    EXPECT_EQ(point_distance(hull, Pose(), Vec3::Zero()), 0);
+    EXPECT_NEAR(point_distance(hull, Pose(), Vec3(0, 0, size)) / size, 1, 1e-15);
+  }
+}
+
 TEST(PointDistance, OfABoxAsAHullIsThatOfTheBox) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> symmetric(-1, 1);

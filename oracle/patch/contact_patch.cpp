@@ -105,7 +105,7 @@ Convex scaled(const Convex& hull, int exponent) {
 /// As in rounding.hpp, but for a hull: normals name the vertices as given.
 Configuration rounded(const Configuration& c) {
   if (!std::holds_alternative<Convex>(c.b)) return rounded_configuration(c).configuration;
-  const double size = largest_half_extent(c.b);
+  const double size = std::max(largest_half_extent(c.b), std::numeric_limits<double>::denorm_min());
   Configuration result =
       rounded_configuration({c.a, c.pose_a, Cylinder(size, size), c.pose_b}).configuration;
   result.b = c.b;

@@ -330,6 +330,12 @@ TEST(Patch, OfAHullNearTheEndsOfTheDoublesIsThatOfAnOrdinaryOneScaled) {
   }
 }
 
+TEST(Patch, OfAHullOfTheSmallestDoublesExists) {
+  const Convex speck = convex_hull(std::vector<Vec3>{{0, 0, 0}, {5e-324, 0, 0}, {0, 5e-324, 0}});
+  const Configuration c{Cylinder(1, 1), Pose(up, upright), speck, Pose()};
+  EXPECT_LE(contact_patch(c, {up, parallel, unaligned, all_three}).centroid().norm(), 1e-300);
+}
+
 TEST(Patch, OfAHullIsAlsoFoundWithoutItsVerticesWhereAnAxisTellsTheNormal) {
   Contact contact = standing_on_hull(1, 0, -2, large_one, {});
   EXPECT_NEAR(contact.patch().area(), pi / 2, rounding);
