@@ -150,6 +150,7 @@ class ScaledBodies {
     const Vec3& e = s.half_extents();
     return Box(Vec3(size(e.x()), size(e.y()), size(e.z())));
   }
+  Convex scaled(const Convex& s) const { return s.scaled(-exponent_); }
   /// The position less the origin; a difference that overflows is scaled before it is taken.
   Vec3 scaled_difference(const Vec3& position) const {
     const Vec3 difference = position - origin_;
@@ -212,6 +213,12 @@ void offer_normals(const PosedSphere&, const Vec3&, Offer) {}
 template <class Offer>
 void offer_normals(const PosedBox& s, const Vec3&, Offer offer) {
   for (int i = 0; i < 3; ++i) offer(s.axes.col(i));
+}
+
+template <class Offer>
+void offer_normals(const PosedConvex& s, const Vec3&, Offer offer) {
+  const ConvexTables& tables = s.body.tables();
+  for (int f = 0; f < tables.face_count; ++f) offer(Vec3(s.axes * tables.face_normal(f)));
 }
 
 /// The gap along a unit vector.

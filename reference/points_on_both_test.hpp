@@ -8,6 +8,7 @@
 #include "properties/moves.hpp"
 #include "reference/configuration.hpp"
 #include "reference/contact.hpp"
+#include "reference/posed_body.hpp"
 
 namespace touchstone {
 
@@ -32,13 +33,8 @@ inline double outside(const Capsule& s, const Vec3& x) {
 inline double outside(const Box& s, const Vec3& x) {
   return (x.cwiseAbs() - s.half_extents()).maxCoeff();
 }
-/// Of the face that it is farthest outside of: less than the distance beyond edges and vertices.
 inline double outside(const Convex& s, const Vec3& x) {
-  double most = -std::numeric_limits<double>::infinity();
-  for (const Convex::Face& face : s.faces()) {
-    most = std::max(most, face.normal.dot(x - s.vertices()[face.vertices.front()]));
-  }
-  return most;
+  return outside(posed(s, Pose(), Vec3::Zero()), x);
 }
 inline double outside(const Shape& shape, const Pose& pose, const Vec3& x) {
   const Vec3 local = pose.rotation().transpose() * (x - pose.position());

@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 
+#include "convex_tables.hpp"
 #include "pose.hpp"
 #include "shape.hpp"
 
@@ -83,10 +84,7 @@ inline double reach(const PosedBox& s, const Vec3& n) {
   return s.half_extents.dot((s.axes.transpose() * n).cwiseAbs());
 }
 inline double reach(const PosedConvex& s, const Vec3& n) {
-  const Vec3 local = s.axes.transpose() * n;
-  double most = -std::numeric_limits<double>::infinity();
-  for (const Vec3& v : s.body.vertices()) most = std::max(most, v.dot(local));
-  return most;
+  return s.body.tables().support(s.axes.transpose() * n);
 }
 
 /// How far a point lies outside a body, metres; less than zero or zero inside.
@@ -107,6 +105,20 @@ inline double outside(const PosedBox& s, const Vec3& x) {
   return ((s.axes.transpose() * (x - s.centre)).cwiseAbs() - s.half_extents).maxCoeff();
 }
 
+/// Beyond the planes of its faces, and at its edges beyond those halfway between them.
+inline double outside(const PosedConvex& s, const Vec3& x) {
+  const ConvexTables& tables = s.body.tables();
+  const Vec3 local = s.axes.transpose() * (x - s.centre);
+  double most = -std::numeric_limits<double>::infinity();
+  for (const ConvexTables::Planes& faces : tables.faces) {
+    most = std::max(most, faces.heights(local).maxCoeff());
+  }
+  for (const ConvexTables::Edge& e : tables.edges) {
+    most = std::max(most, e.middle.dot(local - e.from));
+  }
+  return most;
+}
+
 /// The smallest of a body's lengths, and all of them together.
 struct Lengths {
   double smallest, sum;
@@ -125,6 +137,11 @@ inline Lengths lengths(const PosedCapsule& s) {
 inline Lengths lengths(const PosedBox& s) {
   const Vec3& e = s.half_extents;
   return {std::min({e.x(), e.y(), e.z()}), e.x() + e.y() + e.z()};
+}
+/// Its widths may be of any length, and no power of one is taken.
+inline Lengths lengths(const PosedConvex& s) {
+  constexpr double no_limit = 1;
+  return {no_limit, s.body.tables().far};
 }
 
 }  // namespace touchstone

@@ -10,6 +10,7 @@
 
 #include <Eigen/Geometry>
 
+#include "convex_tables.hpp"
 #include "invalid_input.hpp"
 
 namespace touchstone {
@@ -169,8 +170,10 @@ Convex::Convex(std::vector<Vec3> vertices, std::vector<std::vector<int>> faces) 
   if (count + data->faces.size() != data->edges.size() + 2) {
     refuse_faces("faces", std::to_string(data->faces.size()), "must be one closed surface");
   }
-  // A volume, of which rounding is some ulp of the size's cube, however thin a face is.
-  constexpr double rounding = 1e-14;
+  // A volume, of which rounding is some ulp of the size's cube, however thin a face is; places are
+  // rounded as parts of how far they are from the origin.
+  constexpr double part = 1e-13;
+  const double rounding = part * (1 + data->middle.cwiseAbs().maxCoeff() / largest);
   for (std::size_t f = 0; f < areas.size(); ++f) {
     const Vec3& on_face = unit[data->faces[f].vertices.front()];
     for (std::size_t i = 0; i < count; ++i) {
@@ -183,8 +186,20 @@ Convex::Convex(std::vector<Vec3> vertices, std::vector<std::vector<int>> faces) 
   data->smallest_half_extent = data->faces.size() == 2
                                    ? std::ldexp(std::sqrt(areas.front().norm() / 2) / 2, -exponent)
                                    : data->half_extents.minCoeff();
+  data->tables = std::make_shared<ConvexTables>(vertices, data->faces, data->edges);
   data->vertices = std::move(vertices);
   data_ = std::move(data);
+}
+
+Convex Convex::scaled(int exponent) const {
+  const auto scale = [exponent](double x) { return std::ldexp(x, exponent); };
+  auto data = std::make_shared<Data>(*data_);
+  for (Vec3& v : data->vertices) v = v.unaryExpr(scale).eval();
+  data->half_extents = data->half_extents.unaryExpr(scale).eval();
+  data->middle = data->middle.unaryExpr(scale).eval();
+  data->smallest_half_extent = scale(data->smallest_half_extent);
+  data->tables = std::make_shared<ConvexTables>(data->tables->scaled(exponent));
+  return Convex(std::move(data));
 }
 
 const char* shape_name(const Shape& shape) {

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <limits>
 #include <memory>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -13,6 +14,7 @@
 namespace touchstone {
 
 using Vec3 = Eigen::Vector3d;
+struct ConvexTables;  // convex_tables.hpp
 
 // Shapes, each in its own body frame. Lengths are in metres. A constructor throws InvalidInput
 // when a size is NaN, infinite, zero or negative. A disc (half_length 0) and a segment (radius 0)
@@ -117,6 +119,10 @@ class Convex {
   /// Half of the smallest width over the local axes; of a polygon, half the side of a square of its
   /// area.
   double smallest_half_extent() const { return data_->smallest_half_extent; }
+  /// The same body with all lengths times a power of two.
+  Convex scaled(int exponent) const;
+  /// What our routine looks up.
+  const ConvexTables& tables() const { return *data_->tables; }
 
  private:
   struct Data {
@@ -125,7 +131,9 @@ class Convex {
     std::vector<Edge> edges;
     Vec3 half_extents, middle;
     double smallest_half_extent;
+    std::shared_ptr<const ConvexTables> tables;
   };
+  explicit Convex(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
   std::shared_ptr<const Data> data_;
 };
 

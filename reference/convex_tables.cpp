@@ -1,0 +1,262 @@
+#include "convex_tables.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include <Eigen/Geometry>
+
+namespace touchstone {
+namespace {
+
+/// A number as the sum of two doubles: twice the digits (Dekker, "A floating-point technique for
+/// extending the available precision", 1971).
+struct Twofold {
+  double high = 0, low = 0;
+};
+Twofold sum_of(double x, double y) {
+  const double high = x + y, part = high - x;
+  return {high, (x - (high - part)) + (y - part)};
+}
+Twofold operator+(const Twofold& x, const Twofold& y) {
+  const Twofold sum = sum_of(x.high, y.high);
+  return sum_of(sum.high, sum.low + (x.low + y.low));
+}
+Twofold operator-(const Twofold& x) { return {-x.high, -x.low}; }
+Twofold operator*(const Twofold& x, const Twofold& y) {
+  const double high = x.high * y.high;
+  return sum_of(high, std::fma(x.high, y.high, -high) + (x.high * y.low + x.low * y.high));
+}
+using TwofoldVector = std::array<Twofold, 3>;
+
+Vec3 times_power_of_two(const Vec3& v, int exponent) {
+  return {std::ldexp(v.x(), exponent), std::ldexp(v.y(), exponent), std::ldexp(v.z(), exponent)};
+}
+/// The power of two that makes the largest component about one; of a zero vector 0.
+int exponent_to_one(const Vec3& v) {
+  const double largest = v.cwiseAbs().maxCoeff();
+  return largest > 0 ? -std::ilogb(largest) : 0;
+}
+/// However long or short it is.
+Vec3 unit_along(const Vec3& v) { return times_power_of_two(v, exponent_to_one(v)).normalized(); }
+
+/// The outward unit normal of a plane polygon.
+Vec3 normal_of(const std::vector<Vec3>& vertices, const Convex::Face& face) {
+  const std::vector<int>& corners = face.vertices;
+  const Vec3& first = vertices[corners.front()];
+  Vec3 longest = Vec3::Zero();
+  for (const int i : corners) {
+    const Vec3 arm = vertices[i] / 2 - first / 2;  // whose difference may overflow
+    if (arm.cwiseAbs().maxCoeff() > longest.cwiseAbs().maxCoeff()) longest = arm;
+  }
+  const int exponent = exponent_to_one(longest);
+  const auto arm = [&](int corner) {
+    TwofoldVector result;
+    for (int k = 0; k < 3; ++k) {
+      const Twofold x = sum_of(vertices[corner][k] / 2, -first[k] / 2);
+      result[k] = {std::ldexp(x.high, exponent), std::ldexp(x.low, exponent)};
+    }
+    return result;
+  };
+  TwofoldVector area;
+  for (std::size_t i = 2; i < corners.size(); ++i) {
+    const TwofoldVector p = arm(corners[i - 1]), q = arm(corners[i]);
+    for (int k = 0; k < 3; ++k) {
+      const int a = (k + 1) % 3, b = (k + 2) % 3;
+      area[k] = area[k] + (p[a] * q[b] + -(p[b] * q[a]));
+    }
+  }
+  const Vec3 normal(area[0].high, area[1].high, area[2].high);
+  if (normal.cwiseAbs().maxCoeff() > 0) return unit_along(normal);
+  // Nothing is left of so thin a face, and any normal across it is as good.
+  return unit_along(longest).unitOrthogonal();
+}
+
+template <class Item>
+ConvexTables::Lists<Item> lists_of(const std::vector<std::vector<Item>>& owners) {
+  ConvexTables::Lists<Item> lists;
+  for (const auto& items : owners) {
+    lists.first.push_back(static_cast<int>(lists.items.size()));
+    lists.items.insert(lists.items.end(), items.begin(), items.end());
+  }
+  lists.first.push_back(static_cast<int>(lists.items.size()));
+  return lists;
+}
+
+/// Makes facets of faces. Starts at each face that is not yet in one, the largest first, and adds
+/// neighbours all of whose vertices are within `flat` of its plane.
+class FacetMaker {
+ public:
+  FacetMaker(const std::vector<Vec3>& vertices, const std::vector<Convex::Face>& faces,
+             const ConvexTables& tables, double flat)
+      : vertices_(vertices),
+        faces_(faces),
+        tables_(tables),
+        flat_(flat),
+        facet_(faces.size(), -1) {}
+
+  std::vector<ConvexTables::Facet> make() {
+    std::vector<int> order(faces_.size());
+    std::vector<double> width(faces_.size());
+    for (std::size_t f = 0; f < faces_.size(); ++f) {
+      order[f] = static_cast<int>(f);
+      for (const ConvexTables::FaceEdge& e : tables_.face_edges.of(order[f])) {
+        width[f] = std::max(width[f], inside(static_cast<int>(f), e));
+      }
+    }
+    std::stable_sort(order.begin(), order.end(), [&](int f, int g) { return width[f] > width[g]; });
+    std::vector<ConvexTables::Facet> facets;
+    for (const int f : order) {
+      if (facet_[f] >= 0) continue;
+      members_ = {f};
+      facet_[f] = static_cast<int>(facets.size());
+      for (std::size_t i = 0; i < members_.size(); ++i) grow(members_[i], f);
+      facets.push_back(outlined(f));
+    }
+    return facets;
+  }
+
+ private:
+  /// How far a face extends from that edge.
+  double inside(int face, const ConvexTables::FaceEdge& e) const {
+    const ConvexTables::Edge& edge = tables_.edges[e.edge];
+    const Vec3 inward =
+        tables_.face_normal(face).cross(edge.left == face ? edge.along : -edge.along);
+    double most = 0;
+    for (const int v : faces_[face].vertices) {
+      most = std::max(most, inward.dot(vertices_[v] - edge.from));
+    }
+    return most;
+  }
+  void grow(int member, int seed) {
+    const Vec3 normal = tables_.face_normal(seed);
+    for (const ConvexTables::FaceEdge& e : tables_.face_edges.of(member)) {
+      if (facet_[e.other] >= 0 || !(normal.dot(tables_.face_normal(e.other)) > 0)) continue;
+      const auto& corners = faces_[e.other].vertices;
+      const bool is_flat = std::all_of(corners.begin(), corners.end(), [&](int v) {
+        return std::abs(tables_.height(vertices_[v], seed)) <= flat_;
+      });
+      if (!is_flat) continue;
+      facet_[e.other] = facet_[seed];
+      members_.push_back(e.other);
+    }
+  }
+  /// The members' outline; where that is no single one, the first face alone.
+  ConvexTables::Facet outlined(int seed) {
+    std::map<int, int> next;
+    bool is_single = true;
+    for (const int f : members_) {
+      for (const ConvexTables::FaceEdge& e : tables_.face_edges.of(f)) {
+        if (facet_[e.other] == facet_[seed]) continue;
+        const ConvexTables::Edge& edge = tables_.edges[e.edge];
+        const bool is_left = edge.left == f;
+        const int from = edge.vertices[is_left ? 0 : 1], to = edge.vertices[is_left ? 1 : 0];
+        is_single = next.emplace(from, to).second && is_single;
+      }
+    }
+    ConvexTables::Facet facet;
+    for (std::size_t i = 0, at = 0; is_single && i < next.size(); ++i) {
+      if (i == 0) at = static_cast<std::size_t>(next.begin()->first);
+      facet.corners.push_back(static_cast<int>(at));
+      const auto onward = next.find(static_cast<int>(at));
+      is_single = onward != next.end();
+      if (is_single) at = static_cast<std::size_t>(onward->second);
+      is_single =
+          is_single && (static_cast<int>(at) == facet.corners.front()) == (i + 1 == next.size());
+    }
+    if (!is_single || facet.corners.size() < 3) {
+      for (const int f : members_) {
+        if (f != seed) facet_[f] = -1;
+      }
+      facet.corners = faces_[seed].vertices;
+    }
+    facet.normal = tables_.face_normal(seed);
+    return facet;
+  }
+
+  const std::vector<Vec3>& vertices_;
+  const std::vector<Convex::Face>& faces_;
+  const ConvexTables& tables_;
+  double flat_;
+  std::vector<int> facet_, members_;
+};
+
+}  // namespace
+
+ConvexTables::ConvexTables(const std::vector<Vec3>& points, const std::vector<Convex::Face>& given,
+                           const std::vector<Convex::Edge>& given_edges)
+    : vertices((points.size() + 3) / 4),
+      faces((given.size() + 3) / 4),
+      face_count(static_cast<int>(given.size())),
+      face_middles(given.size()) {
+  for (std::size_t i = 0; i < 4 * vertices.size(); ++i) {
+    const Vec3& v = points[std::min(i, points.size() - 1)];
+    Points& four = vertices[i / 4];
+    four.x[i % 4] = v.x(), four.y[i % 4] = v.y(), four.z[i % 4] = v.z();
+  }
+  for (std::size_t i = 0; i < 4 * faces.size(); ++i) {
+    const Vec3 n = normal_of(points, given[std::min(i, given.size() - 1)]);
+    Points& four = faces[i / 4].normal;
+    four.x[i % 4] = n.x(), four.y[i % 4] = n.y(), four.z[i % 4] = n.z();
+  }
+  std::vector<std::vector<FaceEdge>> of_face(given.size());
+  std::vector<std::vector<int>> edges_at(points.size()), facets_at(points.size());
+  for (const Convex::Edge& e : given_edges) {
+    const Vec3 along = unit_along(points[e.vertices[1]] / 2 - points[e.vertices[0]] / 2);
+    const Vec3 left = face_normal(e.faces[0]), right = face_normal(e.faces[1]);
+    const Vec3 middle = (left + right + along.cross(left - right)).normalized();
+    const int index = static_cast<int>(edges.size());
+    edges.push_back({Vec3::Zero(), along, middle, 0, e.vertices, e.faces[0], e.faces[1]});
+    of_face[e.faces[0]].push_back({index, e.faces[1]});
+    of_face[e.faces[1]].push_back({index, e.faces[0]});
+    for (const int v : e.vertices) edges_at[v].push_back(index);
+  }
+  face_edges = lists_of(of_face);
+  vertex_edges = lists_of(edges_at);
+  measure();
+  constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
+  facets = FacetMaker(points, given, *this, rounding * far).make();
+  for (std::size_t f = 0; f < facets.size(); ++f) {
+    for (const int v : facets[f].corners) facets_at[v].push_back(static_cast<int>(f));
+  }
+  vertex_facets = lists_of(facets_at);
+  measure();
+}
+
+void ConvexTables::measure() {
+  far = 0;
+  for (const Points& p : vertices)
+    far = std::max(far, (p.x.abs() + p.y.abs() + p.z.abs()).maxCoeff());
+  for (int f = 0; f < 4 * static_cast<int>(faces.size()); ++f) {
+    faces[f / 4].offset[f % 4] = support(face_normal(f));
+  }
+  for (Edge& e : edges) {
+    e.from = vertex(e.vertices[0]);
+    e.length = (vertex(e.vertices[1]) - e.from).dot(e.along);
+  }
+  for (Facet& f : facets) f.offset = support(f.normal);
+  for (int f = 0; f < face_count; ++f) {
+    // Its edges' vertices, each of which it has twice.
+    const auto of_face = face_edges.of(f);
+    const double part = 0.5 / static_cast<double>(of_face.size());
+    Vec3& middle = face_middles[f];
+    middle = Vec3::Zero();
+    for (const FaceEdge& e : of_face) {
+      for (const int v : edges[e.edge].vertices) middle += part * vertex(v);
+    }
+  }
+}
+
+ConvexTables ConvexTables::scaled(int exponent) const {
+  ConvexTables result = *this;
+  const auto scale = [exponent](double x) { return std::ldexp(x, exponent); };
+  for (Points& p : result.vertices) {
+    p.x = p.x.unaryExpr(scale), p.y = p.y.unaryExpr(scale), p.z = p.z.unaryExpr(scale);
+  }
+  result.measure();
+  return result;
+}
+
+}  // namespace touchstone

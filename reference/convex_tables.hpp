@@ -1,0 +1,112 @@
+#pragma once
+
+#include <array>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "shape.hpp"
+
+namespace touchstone {
+
+/// What our routine looks up of a convex body, in the body's frame: made once for each body, so
+/// that a question of a pose allocates and normalises nothing.
+///
+/// Directions are as exact as doubles are, of slivers too: the products of which they are made are
+/// exact to twice a double's digits.
+struct ConvexTables {
+  /// Four vectors at once, component by component; of the last ones the last is repeated.
+  using Four = Eigen::Array4d;
+  struct Points {
+    Four x, y, z;
+    Four along(const Vec3& n) const { return x * n.x() + y * n.y() + z * n.z(); }
+  };
+  struct Planes {
+    Points normal;
+    Four offset;  ///< the body's support along the normal
+    Four heights(const Vec3& p) const { return normal.along(p) - offset; }
+  };
+  /// An edge, counterclockwise as seen from outside its left face. Its outward normals are those
+  /// from the left face's to the right one's, with the middle between them (in a polygon's plane).
+  struct Edge {
+    Vec3 from, along, middle;
+    double length;
+    std::array<int, 2> vertices;
+    int left, right;
+  };
+  struct FaceEdge {
+    int edge, other;  ///< and the face beyond it
+  };
+  /// Faces that lie in one plane but for the rounding of their vertices: what a cap stands on.
+  struct Facet {
+    std::vector<int> corners;  ///< counterclockwise seen from outside
+    Vec3 normal;               ///< outward
+    double offset;             ///< the body's support along it
+  };
+  /// Items of all owners in one list.
+  template <class Item>
+  struct Lists {
+    std::vector<Item> items;
+    std::vector<int> first;  ///< of each owner, and the number of all
+    std::span<const Item> of(int owner) const {
+      return {items.data() + first[owner], items.data() + first[owner + 1]};
+    }
+  };
+
+  std::vector<Points> vertices;
+  std::vector<Planes> faces;
+  int face_count;
+  std::vector<Vec3> face_middles;  ///< of their corners
+  std::vector<Edge> edges;
+  Lists<FaceEdge> face_edges;
+  std::vector<Facet> facets;
+  Lists<int> vertex_facets, vertex_edges;
+  double far;  ///< the largest sum of a vertex's coordinates: lengths are rounded as parts of it
+
+  ConvexTables(const std::vector<Vec3>& vertices, const std::vector<Convex::Face>& faces,
+               const std::vector<Convex::Edge>& edges);
+  /// All lengths times a power of two.
+  ConvexTables scaled(int exponent) const;
+
+  double support(const Vec3& n) const {
+    Four most = vertices.front().along(n);
+    for (std::size_t i = 1; i < vertices.size(); ++i) most = most.max(vertices[i].along(n));
+    return most.maxCoeff();
+  }
+  Vec3 face_normal(int face) const {
+    const Planes& planes = faces[face / 4];
+    const int i = face % 4;
+    return {planes.normal.x[i], planes.normal.y[i], planes.normal.z[i]};
+  }
+  /// The first of several.
+  int farthest_vertex(const Vec3& n) const {
+    double most = -std::numeric_limits<double>::infinity();
+    int found = 0;
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+      const Four along = vertices[i].along(n);
+      for (int k = 0; k < 4; ++k) {
+        if (along[k] > most) most = along[k], found = 4 * static_cast<int>(i) + k;
+      }
+    }
+    return found;
+  }
+  Vec3 vertex(int i) const {
+    const Points& four = vertices[i / 4];
+    return {four.x[i % 4], four.y[i % 4], four.z[i % 4]};
+  }
+  /// How far a point lies above a face's plane; with the bits of `heights`.
+  double height(const Vec3& p, int face) const {
+    const Planes& planes = faces[face / 4];
+    const int i = face % 4;
+    return planes.normal.x[i] * p.x() + planes.normal.y[i] * p.y() + planes.normal.z[i] * p.z() -
+           planes.offset[i];
+  }
+
+ private:
+  /// Sets what follows from places and directions.
+  void measure();
+};
+
+}  // namespace touchstone
