@@ -87,6 +87,7 @@ void segment_on_flat(const Manifold& to, const FacingFeature& segment, const Fac
                      bool segment_is_a);
 void disc_on_rectangle(const Manifold& to, const FacingFeature& disc,
                        const FacingFeature& rectangle);
+void disc_on_polygon(const Manifold& to, const FacingFeature& disc, const FacingFeature& polygon);
 void disc_on_disc(const Manifold& to, const FacingFeature& first, const FacingFeature& second,
                   bool first_is_a);
 
@@ -129,6 +130,8 @@ class ContactPlane {
     };
     return {incline(f, inverse), {strip(0), strip(1)}};
   }
+  /// Does what runs counterclockwise as seen against `axis` do so in the plane's coordinates?
+  bool keeps_turn(const Vec3& axis) const { return triple(x_, y_, axis) > 0; }
   /// The least factor by which a disc across `axis` shrinks when it is carried to the plane across
   /// `upright`, or somewhat less: a vector v of the disc is carried to v − v·upright / n·upright n,
   /// whose square is at least 1 − 2 |v·upright| |v·n| / |n·upright|. All three directions enclose
@@ -165,6 +168,26 @@ class ContactPlane {
   const Vec3 n_;
   Vec3 x_, y_;                   ///< unit, in the plane; the same whichever body comes first
   Vec3 lift_, dual_x_, dual_y_;  ///< the dual basis of n_, x_ and y_
+};
+
+/// The corners of a polygon, carried to the plane, counterclockwise as arms from a place.
+class CarriedCorners {
+ public:
+  CarriedCorners(const ContactPlane& plane, const FacingFeature& polygon, const Vec2& from)
+      : plane_(plane),
+        polygon_(polygon),
+        from_(from),
+        keeps_turn_(plane.keeps_turn(polygon.axis)) {}
+  int count() const { return polygon_.corner_count(); }
+  Vec2 corner(int i) const {
+    return plane_.to_plane(polygon_.corner(keeps_turn_ ? i : count() - 1 - i)) - from_;
+  }
+
+ private:
+  const ContactPlane& plane_;
+  const FacingFeature& polygon_;
+  Vec2 from_;
+  bool keeps_turn_;
 };
 
 /// Is so little of a rise within the room that its points would hardly differ?

@@ -2,10 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace touchstone {
 
 using Kind = FacingFeature::Kind;
+
+namespace {
+
+/// Of a face or edge: it may be far longer than what it shares with the other body, over which it
+/// is drawn.
+double part_of_flat(double half_length, double sine, double slack) {
+  constexpr double max_sine = 0.1, all_up_to = 0.5;
+  return facing_part(half_length, sine, slack, max_sine, all_up_to);
+}
+
+}  // namespace
 
 FacingFeature facing(const PosedCylinder& body, const Vec3& outward, double slack) {
   // Component by component: Eigen would load in pairs what was just stored singly, which stalls.
@@ -75,10 +87,7 @@ FacingFeature facing(const PosedBox& body, const Vec3& outward, double slack) {
   for (int i = 0; i < 3; ++i) {
     const Vec3 axis = body.axes.col(i);
     const double along = axis.dot(outward);
-    // A face may be far longer than what it shares with the other body, over which it is drawn.
-    constexpr double max_sine = 0.1, all_up_to = 0.5;
-    const double part =
-        free < 2 ? facing_part(body.half_extents[i], along, slack, max_sine, all_up_to) : 0;
+    const double part = free < 2 ? part_of_flat(body.half_extents[i], along, slack) : 0;
     const double left_out = (1 - part) * body.half_extents[i];
     if (left_out > 0) feature.middle += std::copysign(left_out, along) * axis;
     if (part > 0) {
@@ -99,6 +108,64 @@ FacingFeature facing(const PosedBox& body, const Vec3& outward, double slack) {
   } else if (free == 2) {
     feature.kind = Kind::rectangle;
   }
+  return feature;
+}
+
+/// Of the facets and edges at the farthest vertex, those that lean least.
+FacingFeature facing(const PosedConvex& body, const Vec3& outward, double slack) {
+  const ConvexTables& hull = body.body.tables();
+  const Vec3 n = body.axes.transpose() * outward;
+  const auto in_frame = [&](const Vec3& x) -> Vec3 { return body.centre + body.axes * x; };
+  const int top = hull.farthest_vertex(n);
+  FacingFeature feature;
+  feature.sine = 1;
+
+  const ConvexTables::Facet* facet = nullptr;
+  double least = std::numeric_limits<double>::infinity();
+  for (const int f : hull.vertex_facets.of(top)) {
+    const ConvexTables::Facet& other = hull.facets[static_cast<std::size_t>(f)];
+    const double sine = other.normal.cross(n).norm();
+    if (other.normal.dot(n) > 0 && sine < least) least = sine, facet = &other;
+  }
+  if (facet) {
+    const Vec3 rises = n - n.dot(facet->normal) * facet->normal;
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const int v : facet->corners) {
+      const double height = rises.dot(hull.vertex(v));
+      low = std::min(low, height), high = std::max(high, height);
+    }
+    // Half of its width where it leans, as far as there is one.
+    const double half = least > 0 ? (high - low) / 2 / least : 0;
+    if (const double part = part_of_flat(half, least, slack); part > 0) {
+      feature.kind = Kind::polygon;
+      feature.part = part;
+      feature.axis = body.axes * facet->normal;
+      feature.middle = in_frame(hull.vertex(top));
+      feature.middle += (facet->offset - facet->normal.dot(hull.vertex(top))) * feature.axis;
+      feature.hull = &body;
+      feature.facet = facet;
+      return feature;
+    }
+  }
+  const ConvexTables::Edge* edge = nullptr;
+  least = std::numeric_limits<double>::infinity();
+  for (const int e : hull.vertex_edges.of(top)) {
+    const ConvexTables::Edge& other = hull.edges[static_cast<std::size_t>(e)];
+    const double sine = std::abs(other.along.dot(n));
+    if (sine < least) least = sine, edge = &other;
+  }
+  const double along = edge->along.dot(n), half = edge->length / 2;
+  if (const double part = part_of_flat(half, along, slack); part > 0) {
+    feature.kind = Kind::segment;
+    feature.part = part;
+    feature.left_out[0] = -std::copysign(2 * (1 - part) * half, along);
+    feature.axis = body.axes * edge->along;
+    feature.half_length = half;
+    feature.radius = 0;
+    feature.middle = in_frame(edge->from + half * edge->along);
+    return feature;
+  }
+  feature.middle = in_frame(hull.vertex(top));
   return feature;
 }
 

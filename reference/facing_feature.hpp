@@ -12,15 +12,17 @@ namespace touchstone {
 struct FacingFeature {
   enum class Kind {
     point,
-    segment,   ///< a generator or an edge: middle, axis, half_length; radius of curvature across it
-    disc,      ///< a cap: middle, axis (its normal or the opposite), radius
-    rectangle  ///< a face: middle, axis (likewise), two sides with their half lengths
+    segment,  ///< a generator or an edge: middle, axis, half_length; radius of curvature across it
+    disc,     ///< a cap: middle, axis (its normal or the opposite), radius
+    rectangle,  ///< a face: middle, axis (likewise), two sides with their half lengths
+    polygon     ///< a hull's facet: middle, axis (outward), corners
   };
   Kind kind = Kind::point;
   Vec3 middle;  ///< The point itself; on the surface.
   /// Of a point on a rim, the sine of the angle between normal and axis; otherwise 1.
   double sine;
-  double part = 1;  ///< Of a disc or segment its `facing_part`; the feature itself is whole.
+  double part =
+      1;  ///< Of a disc, segment or polygon its `facing_part`; the feature itself is whole.
   // Members that the kind does not name stay unset.
   Vec3 axis;
   Vec3 mark;  ///< of a disc, across its axis: a direction that turns with the body
@@ -30,6 +32,13 @@ struct FacingFeature {
   /// How far each side goes on along itself, at its far end; the first one how much of a segment
   /// does not face the other body.
   std::array<double, 2> left_out;
+  const PosedConvex* hull;
+  const ConvexTables::Facet* facet;
+
+  int corner_count() const { return static_cast<int>(facet->corners.size()); }
+  Vec3 corner(int i) const {
+    return hull->centre + hull->axes * hull->body.tables().vertex(facet->corners[i]);
+  }
 };
 
 /// How large a part of a feature of this half length, which leans by `sine`, faces the other body,
@@ -55,5 +64,6 @@ inline double facing_part(double half_length, double sine, double slack, double 
 FacingFeature facing(const PosedCylinder& body, const Vec3& outward, double slack);
 FacingFeature facing(const PosedCapsule& body, const Vec3& outward, double slack);
 FacingFeature facing(const PosedBox& body, const Vec3& outward, double slack);
+FacingFeature facing(const PosedConvex& body, const Vec3& outward, double slack);
 
 }  // namespace touchstone

@@ -6,6 +6,7 @@
 
 #include "cap_on_cap.hpp"
 #include "cap_on_face.hpp"
+#include "cap_on_polygon.hpp"
 #include "contact_plane.hpp"
 #include "disc_layout.hpp"
 
@@ -89,6 +90,27 @@ void disc_on_rectangle(const Manifold& to, const FacingFeature& cap, const Facin
     patch.cut_off(up, low + part * (high - low), found.points, found.count);
   }
   add_distinct(plane, found, disc.centre, disc.radius, s);
+}
+
+void disc_on_polygon(const Manifold& to, const FacingFeature& cap, const FacingFeature& face) {
+  const ContactPlane plane(to, cap.axis);
+  const Surfaces s{plane.incline(cap), plane.incline(face)};
+  const Vec2 middle = plane.to_plane(cap.middle);
+  const CarriedCorners corners(plane, face, middle);
+  const CapOnPolygon<CarriedCorners> patch(cap.radius, corners);
+  if (patch.empty()) return plane.add(middle + patch.nearest(), s);  // the rim only touches
+  auto found = points_of(plane, patch, middle, cap.radius, cap.part, s);
+  if (face.part < 1) {  // of a face that leans, the part that faces the cap
+    const Vec2 slope = s.slope(), up = slope / slope.norm();
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (int k = 0; k < found.count; ++k) {
+      const double height = up.dot(found.points[k]);
+      low = std::min(low, height), high = std::max(high, height);
+    }
+    low += found.clearness * (up.dot(found.deepest) - low);
+    patch.cut_off(up, low + face.part * (high - low), found.points, found.count);
+  }
+  add_distinct(plane, found, middle, cap.radius, s);
 }
 
 void disc_on_disc(const Manifold& to, const FacingFeature& first, const FacingFeature& second,

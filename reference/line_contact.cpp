@@ -27,6 +27,41 @@ void keep_within(Interval& range, double a, double b, double bound) {
   range.hi = std::min(range.hi, std::max(t, u));
 }
 
+/// A line that runs along an edge but for this part of rounding is on it or within it.
+constexpr double hair_part = 4e3;
+
+/// Keeps of `range` what of the line is in the polygon, or the place where they only touch. An edge
+/// along which it runs, but for a hair, bounds nothing, whichever side of that rounding puts it on;
+/// of a sliver that is all but the corners.
+void keep_within_polygon(Interval& range, const Line& l, const CarriedCorners& corners,
+                         double hair) {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  Interval kept = range, reached{infinite, -infinite};
+  const double inverse = 1 / l.along.squaredNorm();
+  Vec2 p = corners.corner(corners.count() - 1);
+  for (int i = 0; i < corners.count(); ++i) {
+    const Vec2 q = corners.corner(i), edge = q - p;
+    const double length = edge.norm();
+    if (length > 0) {
+      const Vec2 outward(edge.y() / length, -edge.x() / length);
+      const double offset = outward.dot(l.middle - p), rises = outward.dot(l.along);
+      if (std::abs(rises) * (range.hi - range.lo) > hair) {
+        const double end = -offset / rises;
+        rises > 0 ? kept.hi = std::min(kept.hi, end) : kept.lo = std::max(kept.lo, end);
+      }
+    }
+    const double foot = inverse * l.along.dot(q - l.middle);
+    reached = {std::min(reached.lo, foot), std::max(reached.hi, foot)};
+    p = q;
+  }
+  kept = {std::max(kept.lo, reached.lo), std::min(kept.hi, reached.hi)};
+  if (kept.empty()) {
+    const double middle = within((kept.lo + kept.hi) / 2, range.lo, range.hi);
+    kept = {middle, middle};
+  }
+  range = kept;
+}
+
 constexpr double crossed = 0.1;  // rad; lines that turn by more cross in a point
 
 /// Two lines whose bodies are round about them share the distance y between them, across b, by
@@ -95,6 +130,9 @@ void segment_on_flat(const Manifold& to, const FacingFeature& segment, const Fac
     const double half =
         touches ? 0 : std::sqrt((disc.radius - offset) * (disc.radius + offset) / squared);
     range = {std::max(range.lo, foot - half), std::min(range.hi, foot + half)};
+  } else if (flat.kind == Kind::polygon) {
+    keep_within_polygon(range, l, CarriedCorners(plane, flat, Vec2::Zero()),
+                        hair_part * plane.margins().rounding);
   } else {  // a rectangle
     // The edges that the line crosses first. One that runs along the others, but for a hair, does
     // so within them or on one, whichever side of that rounding puts it on.
@@ -102,7 +140,7 @@ void segment_on_flat(const Manifold& to, const FacingFeature& segment, const Fac
     const double along[] = {strips[0].across.dot(l.along), strips[1].across.dot(l.along)};
     const int first = std::abs(along[0]) >= std::abs(along[1]) ? 0 : 1;
     for (const int i : {first, 1 - first}) {
-      const double hair = 4e3 * plane.margins().rounding;
+      const double hair = hair_part * plane.margins().rounding;
       if (std::abs(along[i]) * (range.hi - range.lo) <= hair) continue;
       const double offset = strips[i].across.dot(l.middle) - strips[i].middle;
       Interval within = range;

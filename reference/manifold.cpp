@@ -13,7 +13,9 @@ namespace {
 
 using Kind = FacingFeature::Kind;
 
-bool is_flat(const FacingFeature& f) { return f.kind == Kind::disc || f.kind == Kind::rectangle; }
+bool is_flat(const FacingFeature& f) {
+  return f.kind == Kind::disc || f.kind == Kind::rectangle || f.kind == Kind::polygon;
+}
 
 /// Adds the points where two features face each other; by their kinds (the first of A):
 ///
@@ -21,6 +23,7 @@ bool is_flat(const FacingFeature& f) { return f.kind == Kind::disc || f.kind == 
 ///   segment, segment where they cross, or the ends of what lies side by side (line_contact.cpp)
 ///   segment, flat    the ends of what lies on it (line_contact.cpp)
 ///   disc, rectangle  the corners of what they share (flat_contact.cpp)
+///   disc, polygon    likewise
 ///   disc, disc       the same, in the plane of the smaller one (flat_contact.cpp)
 void add_points_of_features(Contact& contact, const FacingFeature& a, const FacingFeature& b,
                             const Vec3& origin, const Margins& margins) {
@@ -40,6 +43,7 @@ void add_points_of_features(Contact& contact, const FacingFeature& a, const Faci
   if (!is_flat(a)) return segment_on_flat(to, a, b, true);
   if (!is_flat(b)) return segment_on_flat(to, b, a, false);
   if (b.kind == Kind::rectangle) return disc_on_rectangle(to, a, b);
+  if (b.kind == Kind::polygon) return disc_on_polygon(to, a, b);
   const bool a_is_first =
       a.radius != b.radius ? a.radius < b.radius : points_onward(contact.normal);
   a_is_first ? disc_on_disc(to, a, b, true) : disc_on_disc(to, b, a, false);
@@ -126,8 +130,10 @@ template <class Body>
 void add_facing_points(Contact& contact, const PosedCylinder& a, const Body& b, const Vec3& origin,
                        double contact_threshold, PointRange range) {
   const Vec3 &n = contact.normal, between = a.centre - b.centre;
-  const Margins margins(extents(a), extents(b), between.cwiseAbs().sum(), contact.signed_distance,
-                        contact_threshold, range);
+  double offset = between.cwiseAbs().sum();
+  if constexpr (std::is_same_v<Body, PosedConvex>) offset += lengths(b).sum;
+  const Margins margins(extents(a), extents(b), offset, contact.signed_distance, contact_threshold,
+                        range);
   // A well-known point is all there is to say, whatever the other body turns towards it. Asked
   // first is the body that has one more often.
   const auto is_known = [](const FacingFeature& x) {
@@ -155,6 +161,8 @@ template void add_facing_points(Contact&, const PosedCylinder&, const PosedCapsu
 template void add_facing_points(Contact&, const PosedCylinder&, const PosedCylinder&, const Vec3&,
                                 double, PointRange);
 template void add_facing_points(Contact&, const PosedCylinder&, const PosedBox&, const Vec3&,
+                                double, PointRange);
+template void add_facing_points(Contact&, const PosedCylinder&, const PosedConvex&, const Vec3&,
                                 double, PointRange);
 
 }  // namespace touchstone

@@ -19,6 +19,9 @@ inline Extents extents(const PosedCapsule& s) { return {s.radius, s.half_length 
 inline Extents extents(const PosedBox& s) {
   return {s.half_extents.minCoeff(), s.half_extents.maxCoeff()};
 }
+inline Extents extents(const PosedConvex& s) {
+  return {s.body.smallest_half_extent(), largest_half_extent(s.body)};
+}
 
 /// Lengths that decide on the points of a contact, metres.
 struct Margins {
@@ -66,7 +69,7 @@ inline constexpr double unseen_part = 2e-6;
 
 /// Adds to `contact`, whose normal and signed distance are set, the points where the bodies face
 /// each other across the normal; `origin` is where their frame lies in the world. Bodies:
-/// cylinders, capsules, boxes.
+/// cylinders, capsules, boxes, hulls.
 ///
 /// The facing features' overlap across the normal is a point (one contact point), a segment (its
 /// two ends) or a region bounded by lines and arcs (its corners and points on long arcs, at most
