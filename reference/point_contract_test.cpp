@@ -12,7 +12,7 @@
 #include "reference/contact_of.hpp"
 #include "reference/critical_poses_test.hpp"
 #include "reference/points_on_both_test.hpp"
-#include "reference/random_bodies_test.hpp"
+#include "reference/random_hulls_test.hpp"
 
 namespace touchstone {
 namespace {
@@ -76,6 +76,29 @@ TEST_P(PointContract, HoldsInEveryPoseClassAtEveryThreshold) {
     }
   }
 }
+
+class PointContractOfHulls : public testing::TestWithParam<HullKind> {};
+
+TEST_P(PointContractOfHulls, HoldsAtEveryThreshold) {
+  Random random(1);
+  for (std::uint64_t i = 0; i < contacts_per_class(); ++i) {
+    SCOPED_TRACE(i);
+    Configuration c = with_hull(GetParam(), random);
+    if (random.toss()) c = moved_to_depth(c, random.power_of_ten(-12, -1) * smaller_size(c));
+    const double distance = signed_distance(c).value, size = smaller_size(c);
+    const auto hair = [&] { return size * random.power_of_ten(-17, 0); };
+    for (const double threshold :
+         {0.0, 1e-6 * size, distance, distance / 2, distance + hair(), random.sign() * hair()}) {
+      SCOPED_TRACE(threshold);
+      expect_contract(c, threshold, 1e-6 * larger_size(c) + position_rounding(c));
+      if (HasFatalFailure()) return;
+    }
+  }
+}
+INSTANTIATE_TEST_SUITE_P(, PointContractOfHulls, testing::ValuesIn(hull_kinds),
+                         [](const auto& kind) {
+                           return hull_kind_names[static_cast<int>(kind.param)];
+                         });
 
 // Along a previous normal that only ties, features need not reach each other: points then lie on
 // the bodies to within the threshold, or the bodies part along their best normal.
