@@ -189,6 +189,7 @@ ConvexTables::ConvexTables(const std::vector<Vec3>& points, const std::vector<Co
                            const std::vector<Convex::Edge>& given_edges)
     : vertices((points.size() + 3) / 4),
       faces((given.size() + 3) / 4),
+      places(points),
       face_count(static_cast<int>(given.size())),
       face_middles(given.size()) {
   for (std::size_t i = 0; i < 4 * vertices.size(); ++i) {
@@ -197,7 +198,8 @@ ConvexTables::ConvexTables(const std::vector<Vec3>& points, const std::vector<Co
     four.x[i % 4] = v.x(), four.y[i % 4] = v.y(), four.z[i % 4] = v.z();
   }
   for (std::size_t i = 0; i < 4 * faces.size(); ++i) {
-    const Vec3 n = normal_of(points, given[std::min(i, given.size() - 1)]);
+    if (i < given.size()) face_normals.push_back(normal_of(points, given[i]));
+    const Vec3& n = face_normals.back();
     Points& four = faces[i / 4].normal;
     four.x[i % 4] = n.x(), four.y[i % 4] = n.y(), four.z[i % 4] = n.z();
   }
@@ -230,7 +232,7 @@ void ConvexTables::measure() {
   for (const Points& p : vertices)
     far = std::max(far, (p.x.abs() + p.y.abs() + p.z.abs()).maxCoeff());
   for (int f = 0; f < 4 * static_cast<int>(faces.size()); ++f) {
-    faces[f / 4].offset[f % 4] = support(face_normal(f));
+    faces[f / 4].offset[f % 4] = support(face_normal(std::min(f, face_count - 1)));
   }
   for (Edge& e : edges) {
     e.from = vertex(e.vertices[0]);
@@ -255,6 +257,7 @@ ConvexTables ConvexTables::scaled(int exponent) const {
   for (Points& p : result.vertices) {
     p.x = p.x.unaryExpr(scale), p.y = p.y.unaryExpr(scale), p.z = p.z.unaryExpr(scale);
   }
+  for (Vec3& v : result.places) v = times_power_of_two(v, exponent);
   result.measure();
   return result;
 }

@@ -57,6 +57,8 @@ struct ConvexTables {
 
   std::vector<Points> vertices;
   std::vector<Planes> faces;
+  // The same one by one: what is stored component by component and loaded as a vector stalls.
+  std::vector<Vec3> places, face_normals;
   int face_count;
   std::vector<Vec3> face_middles;  ///< of their corners
   std::vector<Edge> edges;
@@ -75,11 +77,8 @@ struct ConvexTables {
     for (std::size_t i = 1; i < vertices.size(); ++i) most = most.max(vertices[i].along(n));
     return most.maxCoeff();
   }
-  Vec3 face_normal(int face) const {
-    const Planes& planes = faces[face / 4];
-    const int i = face % 4;
-    return {planes.normal.x[i], planes.normal.y[i], planes.normal.z[i]};
-  }
+  const Vec3& face_normal(int face) const { return face_normals[static_cast<std::size_t>(face)]; }
+  const Vec3& vertex(int i) const { return places[static_cast<std::size_t>(i)]; }
   /// The first of several.
   int farthest_vertex(const Vec3& n) const {
     double most = -std::numeric_limits<double>::infinity();
@@ -91,10 +90,6 @@ struct ConvexTables {
       }
     }
     return found;
-  }
-  Vec3 vertex(int i) const {
-    const Points& four = vertices[i / 4];
-    return {four.x[i % 4], four.y[i % 4], four.z[i % 4]};
   }
   /// How far a point lies above a face's plane; with the bits of `heights`.
   double height(const Vec3& p, int face) const {

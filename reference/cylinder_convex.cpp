@@ -48,6 +48,9 @@ StageResult tried(const InHull& p, const Vec3& n, double best) {
   return gap > best ? at(gap, n) : StageResult{};
 }
 
+/// What is compared without its root is at least this part of what counts.
+constexpr double less_a_hair = 1 - 1e-12;
+
 /// Is a gap the one that a feature alone has, so that the hull is met there?
 bool is_that_of_feature(const InHull& p, double gap, double of_feature) {
   return gap >= of_feature - proof_part * p.lengths;
@@ -108,23 +111,28 @@ Meeting face(const InHull& p, double best) {
   return {at(best, p.b.face_normal(found)), p.b.face_middles[static_cast<std::size_t>(found)]};
 }
 
+/// Of what is left of a unit vector without its part along another one, rounding counts where it is
+/// shorter than this.
+constexpr double few_digits = 0.1;
+
 /// A's point that faces the hull along n; of a cap or generator that lies across n, the one that is
 /// nearest to x.
 Vec3 point_facing(const InHull& p, const Vec3& n, const Vec3& x) {
   constexpr double flat = 1e-15;
-  const Vec3 arm = x - p.d;
   const double along = n.dot(p.u);
-  const Vec3 radial = n - along * p.u, beside = arm - arm.dot(p.u) * p.u;
-  const double sine = radial.norm(), off = beside.norm();
-  const double height =
-      std::abs(along) > flat ? -std::copysign(p.h, along) : std::clamp(arm.dot(p.u), -p.h, p.h);
+  const double height = std::abs(along) > flat ? -std::copysign(p.h, along)
+                                               : std::clamp((x - p.d).dot(p.u), -p.h, p.h);
   const Vec3 centre = p.d + height * p.u;
+  Vec3 outward = n - along * p.u;
+  const double sine = outward.norm();
+  if (sine >= few_digits) return centre - p.r / sine * outward;
   if (sine > flat) {  // on the rim or side, whatever rounding leaves along the axis
-    Vec3 outward = radial / sine;
+    outward /= sine;
     outward -= outward.dot(p.u) * p.u;
     return centre - p.r / outward.norm() * outward;
   }
-  return off > p.r ? Vec3(centre + p.r / off * beside) : Vec3(centre + beside);
+  const Vec3 arm = x - p.d, beside = arm - arm.dot(p.u) * p.u;
+  return centre + std::min(1.0, p.r / beside.norm()) * beside;
 }
 
 /// Does a point lie so deep in A that a ball of this radius about it does, too? Then no normal of
@@ -147,12 +155,12 @@ class OpenEdges {
     level_ = best <= 0 ? best + margin_ / 2 : closed_;
   }
 
-  /// Calls visit(edge) of each until it returns false.
+  /// Calls visit(edge, face, other), the faces beside it, until it returns false.
   template <class Visit>
   void visit(Visit visit) const {
     if (!is_excluding_) {
       for (const ConvexTables::Edge& e : p_.b.edges) {
-        if (!visit(e)) return;
+        if (!visit(e, e.left, e.right)) return;
       }
       return;
     }
@@ -165,10 +173,15 @@ class OpenEdges {
         for (const ConvexTables::FaceEdge& e : p_.b.face_edges.of(face)) {
           const bool is_other_closed = p_.b.height(x_, e.other) <= closed_;
           if (is_other_closed ? heights[k] <= level_ : e.other < face) continue;
-          if (!visit(p_.b.edges[e.edge])) return;
+          if (!visit(p_.b.edges[e.edge], face, e.other)) return;
         }
       }
     }
+  }
+  /// Whether a point of A leaves an edge between a face, above which it has this height, and
+  /// another one open.
+  bool leaves_open(const Vec3& x, double height_of_face, int other) const {
+    return !(height_of_face <= level_ && p_.b.height(x, other) <= closed_);
   }
 
  private:
@@ -181,21 +194,22 @@ class OpenEdges {
 /// An edge and the cylinder, seen along the edge: its axis is a line, each cap an ellipse.
 struct SeenAlongEdge {
   const ConvexTables::Edge& edge;
-  Vec3 arm;             ///< from the edge's first end to A's centre
-  double cosine, sine;  ///< between axis and edge
-  Vec3 ahead, aside;    ///< unit, across the edge: along the axis, and across both
-  bool is_crossed;      ///< else the axis is parallel to the edge, but for rounding
+  Vec3 arm;                ///< from the edge's first end to A's centre
+  double cosine, sine;     ///< between axis and edge
+  Vec3 ahead, aside;       ///< unit, across the edge: along the axis, and across both
+  bool is_crossed = true;  ///< else the axis is parallel to the edge, but for rounding
 
   SeenAlongEdge(const InHull& p, const ConvexTables::Edge& e)
       : edge(e), arm(p.d - e.from), cosine(p.u.dot(e.along)) {
     const Vec3 across = p.u - cosine * e.along;
     sine = across.norm();
     ahead = across / sine;
-    // What rounding leaves along the edge counts over its whole length.
-    ahead -= ahead.dot(e.along) * e.along;
-    const double length = ahead.norm();
-    is_crossed = length > 0.5;
-    ahead /= length;
+    if (!(sine >= few_digits)) {  // what rounding leaves along the edge counts over its length
+      ahead -= ahead.dot(e.along) * e.along;
+      const double length = ahead.norm();
+      is_crossed = length > 0.5;
+      ahead /= length;
+    }
     aside = e.along.cross(ahead);
   }
   /// Where the axis passes the edge: on itself from A's centre, on the edge from its first end.
@@ -206,7 +220,21 @@ struct SeenAlongEdge {
   }
 };
 
+/// Whether the side may cross an edge with a larger gap than the best one: across both, the normal
+/// is between those of the edge's faces only if these point to either side along the axis.
+bool may_cross_side(const InHull& p, const ConvexTables::Edge& e, double best) {
+  constexpr double rounding = 1e-15;
+  const double left = p.u.dot(p.b.face_normal(e.left)), right = p.u.dot(p.b.face_normal(e.right));
+  if (std::min(left, right) > rounding || std::max(left, right) < -rounding) return false;
+  const Vec3 across = e.along.cross(p.u);  // not of unit length: no root is needed
+  const double distance = std::copysign(1, across.dot(e.middle)) * across.dot(p.d - e.from);
+  const double least = best + p.r;
+  if (least <= 0) return true;
+  return distance > 0 && distance * distance > least * least * across.squaredNorm() * less_a_hair;
+}
+
 StageResult side_and_edge(const InHull& p, const SeenAlongEdge& seen, double best) {
+  if (!seen.is_crossed) return {};
   const double side = std::copysign(1, seen.aside.dot(seen.edge.middle));
   const double distance = side * seen.arm.dot(seen.aside);
   if (!(distance - p.r > best)) return {};
@@ -219,16 +247,17 @@ StageResult side_and_edge(const InHull& p, const SeenAlongEdge& seen, double bes
   return found;
 }
 
-/// Of a vertex of the hull.
-StageResult side_or_rim_and_vertex(const InHull& p, const Vec3& v, double best) {
+/// Of a vertex of the hull, and the way to another one, which is nearer to A if n points along it.
+StageResult side_or_rim_and_vertex(const InHull& p, const Vec3& v, const Vec3& to_other,
+                                   double best) {
   const Vec3 arm = p.d - v;
   const double height = arm.dot(p.u), above = std::abs(height) - p.h;
   const Vec3 across = arm - height * p.u;
   const double squared = across.squaredNorm(), bound = best + p.r;
   const bool is_beside = squared > 0 && (bound <= 0 || squared > bound * bound);
   StageResult found;
-  if (is_beside) {
-    const double radial = std::sqrt(squared);
+  const double radial = is_beside || above > 0 ? std::sqrt(squared) : 0;
+  if (is_beside && (radial - p.r - best) * radial > across.dot(to_other)) {
     Vec3 n = across / radial;
     n -= n.dot(p.u) * p.u;  // what rounding leaves along the axis counts over its whole length
     const double length = n.norm();
@@ -240,7 +269,7 @@ StageResult side_or_rim_and_vertex(const InHull& p, const Vec3& v, double best) 
     }
   }
   if (!(above > 0)) return found;
-  const double radial = std::sqrt(squared), beside = radial - p.r;
+  const double beside = radial - p.r;
   const double most = std::max(best, found.gap);
   if (!(beside > 0) || (most > 0 && above * above + beside * beside <= most * most)) return found;
   const Vec3 off = std::copysign(above, height) * p.u + (beside / radial) * across;
@@ -281,6 +310,7 @@ double missed_on_arc(double r, double b, double aside, double ahead,
 /// Both rims. `highest`, where it is asked for, is raised to a bound of the gaps of all normals
 /// along which one of them and the edge face each other.
 StageResult rim_and_edge(const InHull& p, const SeenAlongEdge& seen, double best, double* highest) {
+  if (!seen.is_crossed) return {};
   const double b = p.r * std::abs(seen.cosine);
   const double side = std::copysign(1, seen.arm.dot(seen.aside));
   const double beside = without_vanishing(side * seen.arm.dot(seen.aside));
@@ -348,30 +378,42 @@ StageResult largest_gap(const InHull& p, EarlyExit exit, double* highest) {
   };
   Tried vertices(p);
   bool is_any = false;
-  open_edges().visit([&](const ConvexTables::Edge& e) {
+  open_edges().visit([&](const ConvexTables::Edge& e, int, int) {
     is_any = true;
-    const SeenAlongEdge seen(p, e);
-    if (seen.is_crossed) {
+    if (may_cross_side(p, e, best.found.gap)) {
+      const SeenAlongEdge seen(p, e);
       const StageResult found = side_and_edge(p, seen, best.found.gap);
       if (found.gap > best.found.gap) best.improve(found, seen.nearest_to_axis());
     }
-    for (const int i : e.vertices) {
+    for (int end = 0; end < 2; ++end) {
+      const int i = e.vertices[end];
       if (!vertices.is_new(i)) continue;
-      const Vec3 v = p.b.vertex(i);
-      best.improve(side_or_rim_and_vertex(p, v, best.found.gap), v);
+      const Vec3 &v = p.b.vertex(i), &other = p.b.vertex(e.vertices[1 - end]);
+      best.improve(side_or_rim_and_vertex(p, v, other - v, best.found.gap), v);
     }
     return !is_over();
   });
   if (!is_any || is_over()) return best.found;
-  open_edges().visit([&](const ConvexTables::Edge& e) {
+  // Here A's point that faces each face excludes most of its edges.
+  const OpenEdges left = open_edges();
+  int at_face = -1;
+  double height = 0;
+  Vec3 x;
+  left.visit([&](const ConvexTables::Edge& e, int face, int other) {
     if (exit.trusts_proofs) {
+      if (face != at_face) {
+        at_face = face;
+        x = point_facing(p, p.b.face_normal(face),
+                         p.b.face_middles[static_cast<std::size_t>(face)]);
+        height = p.b.height(x, face);
+      }
+      if (!left.leaves_open(x, height, other)) return true;
       const double delta = depth(best.found.gap) + rounding_part * p.lengths;
       if (holds_ball(p, e.from, delta) || holds_ball(p, e.from + e.length * e.along, delta)) {
         return true;
       }
     }
-    const SeenAlongEdge seen(p, e);
-    if (seen.is_crossed) best.found.improve(rim_and_edge(p, seen, best.found.gap, highest));
+    best.found.improve(rim_and_edge(p, SeenAlongEdge(p, e), best.found.gap, highest));
     return !is_over();
   });
   return best.found;
