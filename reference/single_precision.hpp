@@ -69,7 +69,7 @@ inline void round_into(const SignedDistance& from, FloatSignedDistance& to) {
 }
 void round_into(const Contact& from, FloatContact& to);
 
-// As in contact.hpp. `Other` is Plane, Sphere, Capsule, Cylinder or Box.
+// As in contact.hpp. `Other` is Plane, Sphere, Capsule, Cylinder, Box or Convex.
 
 template <class Other>
 FloatSignedDistance signed_distance(const Cylinder& a, const FloatPose& pose_a, const Other& b,

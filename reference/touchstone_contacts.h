@@ -15,7 +15,8 @@ extern "C" {
 
 #define TOUCHSTONE_CONTACT_MAX_POINTS 8
 
-/* Shapes about their own centre; cylinder and capsule along local z. */
+/* Shapes about their own centre; cylinder and capsule along local z. Convex bodies are left out: a
+ * Convex (shape.hpp) is made of its faces, too, which only exact arithmetic finds for certain. */
 typedef enum touchstone_shape_kind {
   TOUCHSTONE_CYLINDER, /* size = radius, half length */
   TOUCHSTONE_PLANE,  /* size = normal x, y, z, displacement: solid where normal.x <= displacement */

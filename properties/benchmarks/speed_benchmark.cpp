@@ -18,9 +18,11 @@
 #include <string>
 #include <vector>
 
+#include "oracle/hull.hpp"
 #include "properties/identity.hpp"
 #include "reference/batch.hpp"
 #include "reference/contact_of.hpp"
+#include "reference/random_bodies_test.hpp"
 #include "reference/single_precision.hpp"
 
 namespace touchstone {
@@ -60,18 +62,53 @@ void stream(benchmark::State& state, const std::vector<Configuration>& all, Ques
       all.front().b);
 }
 
-void add(Pair pair, const std::string& pose_class) {
-  const auto name = [&](const char* question) {
-    return std::string(pair_name(pair)) + "/" + pose_class + "/" + question;
-  };
+/// The three questions of the configurations that make() makes.
+template <class Make>
+void add(const std::string& name, Make make) {
   const auto add_question = [&](const char* question, auto ask) {
-    benchmark::RegisterBenchmark(name(question).c_str(), [=](benchmark::State& state) {
-      stream(state, pose_class == "apart" ? apart(pair) : configurations(pair, pose_class), ask);
-    });
+    benchmark::RegisterBenchmark((name + "/" + question).c_str(),
+                                 [=](benchmark::State& state) { stream(state, make(), ask); });
   };
   add_question("contact", [](const auto&... bodies) { return contact(bodies..., 0); });
   add_question("signed_distance", [](const auto&... bodies) { return signed_distance(bodies...); });
   add_question("overlaps", [](const auto&... bodies) { return overlaps(bodies...); });
+}
+
+void add(Pair pair, const std::string& pose_class) {
+  add(std::string(pair_name(pair)) + "/" + pose_class,
+      [=] { return pose_class == "apart" ? apart(pair) : configurations(pair, pose_class); });
+}
+
+/// Hulls of so many points of a sphere of one metre (of three a triangle), in general poses of
+/// about this depth.
+std::vector<Configuration> against_hulls(int corners, double depth) {
+  Random random(1);
+  std::vector<Convex> hulls;
+  for (int i = 0; i < 16; ++i) {
+    std::vector<Vec3> points;
+    for (int k = 0; k < corners; ++k) points.push_back(random.direction());
+    hulls.push_back(oracle::convex_hull(points));
+  }
+  std::vector<Configuration> result;
+  for (std::uint64_t i = 0; i < poses; ++i) {
+    const double radius = random.uniform(0.2, 1), part = random.uniform(0.2, 1);
+    const Cylinder a(radius, random.uniform(0.2, 1));
+    Configuration c{a, Pose(1.5 * random.direction(), random.turn()), hulls[i % hulls.size()],
+                    Pose(Vec3::Zero(), random.turn())};
+    for (int k = 0; k < 3; ++k) {
+      const SignedDistance found = signed_distance(c);
+      c.pose_a = Pose(c.pose_a.position() - (found.value + part * depth) * found.normal,
+                      c.pose_a.orientation());
+    }
+    result.push_back(c);
+  }
+  return result;
+}
+void add_hulls(int corners) {
+  const std::string body = "cylinder-convex-" + std::to_string(corners) + "/";
+  add(body + "general+shallow", [=] { return against_hulls(corners, 0.02); });
+  add(body + "general+deep", [=] { return against_hulls(corners, 0.3); });
+  add(body + "apart", [=] { return against_hulls(corners, -0.1); });
 }
 
 /// Poses of both bodies, at random within the reach of one another's bounding spheres.
@@ -175,6 +212,7 @@ void add_all() {
   add_mixed("cylinder-capsule", Capsule(0.4, 0.5));
   add_mixed("cylinder-cylinder", Cylinder(0.4, 0.8));
   add_mixed("cylinder-box", Box(Vec3(0.6, 0.5, 0.4)));
+  for (const int corners : {3, 8, 32, 64}) add_hulls(corners);
   for (const Pair pair : all_pairs) {
     add(pair, "apart");
     const ClassSelection selected{

@@ -11,6 +11,7 @@ import subprocess
 import sys
 
 BODIES = ["plane", "sphere", "capsule", "cylinder", "box"]
+HULLS = ["convex-3", "convex-8", "convex-32", "convex-64"]  # by their vertices
 COLUMNS = [
     ("signed_distance", "general+shallow", "`signed_distance` shallow"),
     ("signed_distance", "general+deep", "deep"),
@@ -64,7 +65,7 @@ def main():
 
     print_table(["against", *[head for _, _, head in COLUMNS]],
                 [[body, *[cell(f"cylinder-{body}/{name}/{question}") for question, name, _ in COLUMNS]]
-                 for body in BODIES])
+                 for body in BODIES + HULLS])
     for body, name in SENTENCES:
         contact, distance = [cell(f"cylinder-{body}/{name}/{q}") for q in ("contact", "signed_distance")]
         print(f"{body}, {name}: contact {contact}, signed_distance {distance}")
