@@ -1,8 +1,9 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 
-#include "candidates/candidate.h"
+#include "candidates/ts_shape.hpp"
 
 /// What adapters of engines have in common.
 namespace touchstone::adapter {
@@ -11,6 +12,17 @@ namespace touchstone::adapter {
 template <class Vector>
 void copy(const Vector& from, double (&to)[3]) {
   for (int i = 0; i < 3; ++i) to[i] = static_cast<double>(from[i]);
+}
+
+/// The mean of a convex body's vertices, which is inside it: where engines that search from a
+/// body's origin are given that.
+inline std::array<double, 3> middle_of(const ts_shape& convex) {
+  std::array<double, 3> middle{};
+  const auto coordinates = coordinates_of(convex);
+  for (std::size_t i = 0; i < coordinates.size(); ++i) {
+    middle[i % 3] += coordinates[i] / convex.vertex_count;
+  }
+  return middle;
 }
 
 /// Begins an answer to which points are added.
@@ -39,6 +51,10 @@ void add_point(const Position& position, const Normal& normal, double distance, 
 inline int supports_all(void* /*context*/, ts_shape_kind /*other*/) { return 1; }
 /// All but the half-space.
 inline int supports_bounded(void* /*context*/, ts_shape_kind other) { return other != TS_PLANE; }
+/// All but convex bodies.
+inline int supports_primitives(void* /*context*/, ts_shape_kind other) {
+  return other != TS_CONVEX;
+}
 template <class Prepared>
 void release(Prepared* prepared) {
   delete prepared;

@@ -106,7 +106,7 @@ void query(ts_prepared* p, const ts_pose* a, const ts_pose* b, const double*, ts
   }
 }
 
-using touchstone::adapter::supports_bounded;
+int supports(void*, ts_shape_kind other) { return other != TS_PLANE && other != TS_CONVEX; }
 
 const ts_parameter sides = {"number of sides", 3, 32, 16, 1, 1};
 const std::string version = [] {
@@ -116,8 +116,8 @@ const std::string version = [] {
 const ts_candidate candidates[] = {
     {"box3d", version.c_str(),
      "single precision; the pair's function with an empty cache; its own prism for every cylinder",
-     "every cylinder as the regular prism with its corners on the rims", &sides, supports_bounded,
-     prepare, query, release, nullptr, nullptr}};
+     "every cylinder as the regular prism with its corners on the rims", &sides, supports, prepare,
+     query, release, nullptr, nullptr}};
 const ts_plugin plugin = touchstone::adapter::plugin_of(candidates);
 
 }  // namespace

@@ -4,13 +4,14 @@
 //              (btConvexConvexAlgorithm with GJK and EPA's btGjkEpaPenetrationDepthSolver;
 //              btConvexPlaneCollisionAlgorithm for the plane), kept with the pair as a world keeps
 //              it, then processCollision into its manifold.
-// Shapes       btCylinderShapeZ, btCapsuleShapeZ, btSphereShape, btBoxShape, btStaticPlaneShape.
+// Shapes       btCylinderShapeZ, btCapsuleShapeZ, btSphereShape, btBoxShape, btStaticPlaneShape;
+//              btConvexHullShape of a convex body's vertices, be it flat or not.
 // Margin       bullet: as Bullet makes them, min(0.04, a tenth of the smallest half extent) on
 //              cylinder and box, taken from the inside, which keeps the faces where they are and
 //              rounds the edges; for capsule and sphere the radius is the margin.
-//              bullet-margin-0: setMargin(0) on cylinder and box, for sharp edges.
-//              bullet-hull:N: btConvexHullShape of the prism's corners with margin 0; Bullet's own
-//              0.04 would enlarge the hull.
+//              btConvexHullShape has it outside: a convex body is 0.04 larger on all sides.
+//              bullet-margin-0: setMargin(0) on cylinder, box and hull, for sharp edges.
+//              bullet-hull:N: btConvexHullShape of the prism's corners with margin 0.
 // Conventions  m_normalWorldOnB points from B to A of the manifold; its order is checked. A point
 //              is midway between Bullet's positions on A and on B.
 // Threshold    Bullet also reports points up to its contact breaking threshold apart (at most
@@ -37,6 +38,7 @@
 #include <BulletCollision/CollisionShapes/btStaticPlaneShape.h>
 #include <algorithm>
 #include <memory>
+#include <span>
 
 #include "candidates/adapter.hpp"
 #include "candidates/model.hpp"
@@ -55,15 +57,20 @@ struct Setting {
 
 btScalar to_scalar(double value) { return static_cast<btScalar>(value); }
 
-std::unique_ptr<btCollisionShape> make_prism(int sides, const double (&size)[4]) {
+std::unique_ptr<btConvexHullShape> make_hull(std::span<const double> coordinates) {
   auto shape = std::make_unique<btConvexHullShape>();
-  const auto prism = touchstone::RoundedPolytope::prism(sides, size[0], size[1]);
-  for (const touchstone::Vec3& v : prism.vertices()) {
-    shape->addPoint(btVector3(to_scalar(v.x()), to_scalar(v.y()), to_scalar(v.z())), false);
+  for (std::size_t i = 0; i < coordinates.size(); i += 3) {
+    shape->addPoint(btVector3(to_scalar(coordinates[i]), to_scalar(coordinates[i + 1]),
+                              to_scalar(coordinates[i + 2])),
+                    false);
   }
   shape->recalcLocalAabb();
-  shape->setMargin(0);
   return shape;
+}
+
+std::unique_ptr<btConvexHullShape> make_prism(int sides, const double (&size)[4]) {
+  const auto prism = touchstone::RoundedPolytope::prism(sides, size[0], size[1]);
+  return make_hull({prism.vertices().front().data(), 3 * prism.vertices().size()});
 }
 
 std::unique_ptr<btCollisionShape> make_shape(const ts_shape& shape, const Setting& setting) {
@@ -75,7 +82,7 @@ std::unique_ptr<btCollisionShape> make_shape(const ts_shape& shape, const Settin
   };
   switch (shape.kind) {
     case TS_CYLINDER:
-      if (setting.sides > 0) return make_prism(setting.sides, shape.size);
+      if (setting.sides > 0) return with_margin(make_prism(setting.sides, shape.size));
       return with_margin(std::make_unique<btCylinderShapeZ>(btVector3(s[0], s[0], s[1])));
     case TS_PLANE:
       return std::make_unique<btStaticPlaneShape>(btVector3(s[0], s[1], s[2]), s[3]);
@@ -85,6 +92,8 @@ std::unique_ptr<btCollisionShape> make_shape(const ts_shape& shape, const Settin
       return std::make_unique<btCapsuleShapeZ>(s[0], 2 * s[1]);
     case TS_BOX:
       return with_margin(std::make_unique<btBoxShape>(btVector3(s[0], s[1], s[2])));
+    case TS_CONVEX:
+      return with_margin(make_hull(touchstone::coordinates_of(shape)));
   }
   return nullptr;
 }
@@ -218,7 +227,8 @@ void query(ts_prepared* prepared, const ts_pose* a, const ts_pose* b, const doub
   prepared->pair.query(*a, *b, *answer);
 }
 
-using touchstone::adapter::release, touchstone::adapter::supports_all;
+using touchstone::adapter::release, touchstone::adapter::supports_all,
+    touchstone::adapter::supports_primitives;
 
 #define NAME(rest) (single_precision ? "bullet-float" rest : "bullet" rest)
 #define SETTINGS(rest) (single_precision ? "single precision; " rest : "double precision; " rest)
@@ -232,7 +242,7 @@ const ts_candidate candidates[] = {
      SETTINGS("the world's narrow phase with Touchstone's contacts of cylinders installed, at most "
               "4 points, midway between the two surfaces; one query with an empty manifold; sharp "
               "edges"),
-     nullptr, nullptr, supports_all, prepare<usual>, query, release, nullptr, nullptr}};
+     nullptr, nullptr, supports_primitives, prepare<usual>, query, release, nullptr, nullptr}};
 const ts_plugin plugin = touchstone::adapter::plugin_of(candidates);
 
 #else
@@ -258,11 +268,12 @@ const ts_parameter sides = {"number of sides", 3, 128, 16, 1, 0};
 const ts_candidate candidates[] = {
     {NAME(""), TOUCHSTONE_BULLET_VERSION,
      SETTINGS(CALLS "one query with an empty manifold; default margins: edges of cylinder and box "
-                    "rounded by min(0.04 m, a tenth of the smallest half extent)"),
+                    "rounded by min(0.04 m, a tenth of the smallest half extent), convex bodies "
+                    "0.04 m larger"),
      nullptr, nullptr, supports_all, prepare<usual>, query, release, nullptr, nullptr},
     {NAME("-margin-0"), TOUCHSTONE_BULLET_VERSION,
-     SETTINGS(CALLS "one query with an empty manifold; margin 0 on cylinder and box"), nullptr,
-     nullptr, supports_all, prepare<sharp>, query, release, nullptr, nullptr},
+     SETTINGS(CALLS "one query with an empty manifold; margin 0 on cylinder, box and convex body"),
+     nullptr, nullptr, supports_all, prepare<sharp>, query, release, nullptr, nullptr},
     {NAME("-persistent"), TOUCHSTONE_BULLET_VERSION,
      SETTINGS(CALLS "the manifold after five queries, four of them rocked by 1 mrad; default "
                     "margins; the time is that of all five"),

@@ -23,23 +23,33 @@
 extern "C" {
 #endif
 
-/* The version of this header. Plug-ins made for version 3 load, too; others are rejected. */
-#define TOUCHSTONE_INTERFACE_VERSION 4
+/* The version of this header. Plug-ins made for versions 3 and 4, which know no convex bodies,
+ * load, too, and are not asked about those; others are rejected. */
+#define TOUCHSTONE_INTERFACE_VERSION 5
 #define TOUCHSTONE_MAX_POINTS 16
 #define TOUCHSTONE_EXPORT __attribute__((visibility("default")))
 
-/* Shapes about their own centre; cylinder and capsule along local z. */
+/* Shapes about their own centre, but for the convex one; cylinder and capsule along local z. */
 typedef enum ts_shape_kind {
   TS_CYLINDER, /* size = radius, half_length */
   TS_PLANE,    /* size = unit normal x, y, z, displacement: solid where normal.x <= displacement */
   TS_SPHERE,   /* size = radius */
   TS_CAPSULE,  /* size = radius, half_length of the segment (the caps come on top) */
-  TS_BOX       /* size = half extents x, y, z */
+  TS_BOX,      /* size = half extents x, y, z */
+  TS_CONVEX    /* the hull of `vertices`, of which each is a corner: a polyhedron, or a polygon in
+                  space, as a triangle, with two faces that look in opposite directions */
 } ts_shape_kind;
 
+/* What follows `size` is of a convex body, and else zero. It is there during `prepare` only: copy
+ * what you need. */
 typedef struct ts_shape {
   ts_shape_kind kind;
-  double size[4]; /* unused entries are zero */
+  double size[4];         /* unused entries are zero */
+  const double* vertices; /* x, y, z of each, in the body frame: not about its origin */
+  const int* faces;       /* of each the number of its corners and their indices, which go
+                             counterclockwise seen from outside; all of one plane are one face */
+  int vertex_count;       /* 3 to 4096 */
+  int face_count;
 } ts_shape;
 
 typedef struct ts_pose {

@@ -7,7 +7,6 @@
 #include <deque>
 #include <dlfcn.h>
 #include <fstream>
-#include <stdexcept>
 #include <system_error>
 
 #include "candidates/host/plugin_process.hpp"
@@ -292,21 +291,29 @@ class Registry {
 
 struct ToTsShape {
   ts_shape operator()(const Cylinder& s) const {
-    return {TS_CYLINDER, {s.radius(), s.half_length()}};
+    return sized(TS_CYLINDER, s.radius(), s.half_length());
   }
   ts_shape operator()(const Plane& s) const {
     const Vec3& n = s.unit_normal();
-    return {TS_PLANE, {n.x(), n.y(), n.z(), s.unit_displacement()}};
+    return sized(TS_PLANE, n.x(), n.y(), n.z(), s.unit_displacement());
   }
-  ts_shape operator()(const Sphere& s) const { return {TS_SPHERE, {s.radius()}}; }
+  ts_shape operator()(const Sphere& s) const { return sized(TS_SPHERE, s.radius()); }
   ts_shape operator()(const Capsule& s) const {
-    return {TS_CAPSULE, {s.radius(), s.half_length()}};
+    return sized(TS_CAPSULE, s.radius(), s.half_length());
   }
   ts_shape operator()(const Box& s) const {
     const Vec3& h = s.half_extents();
-    return {TS_BOX, {h.x(), h.y(), h.z()}};
+    return sized(TS_BOX, h.x(), h.y(), h.z());
   }
-  ts_shape operator()(const Convex&) const { throw std::logic_error("convex: later stage"); }
+  ts_shape operator()(const Convex& s) const {
+    static_assert(sizeof(Vec3) == 3 * sizeof(double));
+    ts_shape shape = sized(TS_CONVEX, 0);
+    shape.vertices = s.vertices().front().data();
+    shape.faces = s.face_list().data();
+    shape.vertex_count = static_cast<int>(s.vertices().size());
+    shape.face_count = static_cast<int>(s.faces().size());
+    return shape;
+  }
 };
 
 /// The numbers of "1..64".
@@ -331,9 +338,9 @@ std::vector<double> sweep(const Candidate& family, std::string_view text) {
 }  // namespace
 
 bool Candidate::has_routine_for(Pair pair) const {
-  if (pair == Pair::convex) return false;  // convex: later stage
-  constexpr ts_shape_kind kinds[] = {TS_PLANE, TS_SPHERE, TS_CAPSULE, TS_CYLINDER, TS_BOX};
-  static_assert(std::size(kinds) == std::size(all_pairs));
+  constexpr ts_shape_kind kinds[] = {TS_PLANE,    TS_SPHERE, TS_CAPSULE,
+                                     TS_CYLINDER, TS_BOX,    TS_CONVEX};
+  static_assert(std::size(kinds) == std::size(known_pairs));
   return supports[kinds[static_cast<std::size_t>(pair)]];
 }
 

@@ -10,7 +10,7 @@
 #include <variant>
 #include <vector>
 
-#include "candidates/candidate.h"
+#include "candidates/ts_shape.hpp"
 #include "reference/configuration.hpp"
 
 namespace touchstone {
@@ -54,10 +54,10 @@ struct Candidate {
   std::string models;  ///< what represents the shapes in a simplified model; empty if they are used
                        ///< as they are
   std::optional<Parameter> parameter;
-  double value = 0;                ///< of the parameter
-  std::array<bool, 5> supports{};  ///< by ts_shape_kind
-  std::string precision;           ///< of a command or function: "double" or "float"
-  std::string runs = "native";     ///< "native", "wasm" or "script"
+  double value = 0;                          ///< of the parameter
+  std::array<bool, shape_kinds> supports{};  ///< by ts_shape_kind
+  std::string precision;                     ///< of a command or function: "double" or "float"
+  std::string runs = "native";               ///< "native", "wasm" or "script"
   std::variant<Plugin, Command, Function> origin;
   std::optional<Added> added;  ///< what brought it; absent for those that Touchstone has
 
@@ -102,7 +102,7 @@ std::vector<const Candidate*> find_candidates(const std::vector<std::string>& na
 
 /// Adds the candidates of a file: a plug-in, or, if its name ends in ".txt", a list of commands,
 /// one a line, which run in the file's folder; "#" begins a comment. Throws InvalidInput (field
-/// "--load") if a plug-in is not one of this interface version, dies while it is loaded, or
+/// "--load") if a plug-in is of an interface version that is not read, dies while it is loaded, or
 /// has a candidate whose name is taken; for a list like add_command, with the line.
 void add_file(const std::filesystem::path& file);
 
@@ -129,7 +129,7 @@ std::filesystem::path standard_folder();
 bool is_in_clone();
 
 /// Convert a shape or a pose to the C interface; quaternions and plane normals are normalised in
-/// double.
+/// double. Pointers lead into a convex body, which has to live as long.
 ts_shape to_ts_shape(const Shape& shape);
 ts_pose to_ts_pose(const Pose& pose);
 

@@ -9,6 +9,7 @@
 
 #include "candidates/model.hpp"
 #include "candidates/testing/plain_contacts.hpp"
+#include "oracle/hull.hpp"
 #include "oracle/truth.hpp"
 #include "properties/identity.hpp"
 #include "reference/invalid_input.hpp"
@@ -223,6 +224,50 @@ TEST(Models, FourSidesAreABox) {
     const Separation x = separation(square, other), y = separation(box, other);
     EXPECT_NEAR(x.distance, y.distance, rounding);
   }
+}
+
+TEST(Models, MeetTheHullOfABoxAsTheBox) {
+  const Box box({0.4, 0.3, 0.7});
+  std::vector<Vec3> corners;
+  for (int i = 0; i < 8; ++i) {
+    corners.push_back(
+        Vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1).cwiseProduct(box.half_extents()));
+  }
+  const Convex hull = oracle::convex_hull(corners);
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal;
+  for (const CylinderModel& model :
+       {CylinderModel(inscribed_capsule), spheres(5), prism(5), prism(8)}) {
+    for (int i = 0; i < 100; ++i) {
+      const Quaternion turn =
+          Quaternion(normal(random), normal(random), normal(random), normal(random)).normalized();
+      const ts_pose pose = at(0.6 * Vec3(normal(random), normal(random), normal(random)), turn);
+      const Separation of_box = between(model, can, pose, to_ts_shape(box), at({0, 0, 0})),
+                       of_hull = between(model, can, pose, to_ts_shape(hull), at({0, 0, 0}));
+      EXPECT_NEAR(of_hull.distance, of_box.distance, rounding);
+      if (of_hull.distance > 0) continue;
+      EXPECT_NEAR((of_hull.on_a - of_hull.on_b).dot(of_hull.normal), of_hull.distance, rounding);
+    }
+  }
+}
+
+TEST(Models, KnowFaceEdgeAndCornerOfATriangle) {
+  const Convex triangle = oracle::convex_hull({{-2, -1, 0}, {2, -1, 0}, {0, 3, 0}});
+  const ts_shape coin = to_ts_shape(Cylinder(0.5, 0.25));  // as one sphere of 0.25
+  const auto distance = [&](const Vec3& centre) {
+    return between(spheres(1), coin, at(centre), to_ts_shape(triangle), at({0, 0, 0})).distance +
+           0.25;
+  };
+  EXPECT_NEAR(distance({0, 0, 0.5}), 0.5, rounding);       // face
+  EXPECT_NEAR(distance({0, 0, -0.125}), 0.125, rounding);  // the other one
+  EXPECT_NEAR(distance({0, 0, 0}), 0, rounding);           // on it
+  EXPECT_NEAR(distance({0.5, -1.3, 0.4}), 0.5, rounding);  // edge
+  EXPECT_NEAR(distance({0.5, -1.3, 0}), 0.3, rounding);    // in its plane
+  EXPECT_NEAR(distance({0, 3.3, -0.4}), 0.5, rounding);    // corner
+  // A capsule's segment that pierces it comes free along its own length or across an edge.
+  const auto pierced = between(inscribed_capsule, to_ts_shape(Cylinder(0.25, 2)), at({0, -0.5, 0}),
+                               to_ts_shape(triangle), at({0, 0, 0}));
+  EXPECT_NEAR(pierced.distance, -0.75, rounding);
 }
 
 TEST(Models, NoDirectionHasALargerGapThanTheAnswer) {

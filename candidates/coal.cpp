@@ -39,6 +39,8 @@ Geometry make_geometry(const ts_shape& shape) {
       return std::make_unique<coal::Capsule>(s[0], 2 * s[1]);
     case TS_BOX:
       return std::make_unique<coal::Box>(2 * s[0], 2 * s[1], 2 * s[2]);
+    case TS_CONVEX:
+      break;  // not supported
   }
   return nullptr;
 }
@@ -89,16 +91,16 @@ void query(ts_prepared* p, const ts_pose* a, const ts_pose* b, const double*, ts
   if (answer->point_count == 0) add(contact.pos);
 }
 
-using touchstone::adapter::release, touchstone::adapter::supports_all;
+using touchstone::adapter::release, touchstone::adapter::supports_primitives;
 
 const ts_candidate candidates[] = {
     {"coal", TOUCHSTONE_COAL_VERSION,
      "double precision; collide with default settings (GJK and EPA to 1e-6; half-space and sphere "
      "analytic)",
-     nullptr, nullptr, supports_all, prepare, query<false>, release, nullptr, nullptr},
+     nullptr, nullptr, supports_primitives, prepare, query<false>, release, nullptr, nullptr},
     {"coal-patch", TOUCHSTONE_COAL_VERSION,
      "double precision; collide, then computeContactPatch, with default settings", nullptr, nullptr,
-     supports_all, prepare, query<true>, release, nullptr, nullptr}};
+     supports_primitives, prepare, query<true>, release, nullptr, nullptr}};
 const ts_plugin plugin = touchstone::adapter::plugin_of(candidates);
 
 }  // namespace

@@ -8,7 +8,8 @@
 //                           and EPA over libccd), with default tolerances.
 // Routes       Half-space and sphere are FCL's own closed forms in collide.
 // Shapes       Cylinder and Capsule by full length, the capsule's without its caps; Box by full
-//              lengths; a plane is a Halfspace, solid where n·x <= d.
+//              lengths; a plane is a Halfspace, solid where n·x <= d; a convex body is a Convex of
+//              its vertices and faces, be it flat or not.
 // Conventions  collide's normal points from object 1 to object 2 and is reversed. fcl::distance
 //              gives no normal; it is taken along the line between the two nearest points, each
 //              on its own body. At exact touch there is no line, and it stays zero.
@@ -21,6 +22,7 @@
 // Asserts      are active in Debian's libfcl: a failed one ends the process and counts as a crash.
 #include <fcl/fcl.h>
 #include <memory>
+#include <vector>
 
 #include "candidates/adapter.hpp"
 
@@ -30,6 +32,16 @@ using touchstone::adapter::add_point;
 using Vector = fcl::Vector3d;
 using Transform = fcl::Transform3d;
 using Geometry = std::unique_ptr<fcl::CollisionGeometryd>;
+
+Geometry make_convex(const ts_shape& shape) {
+  auto vertices = std::make_shared<std::vector<Vector>>();
+  for (int i = 0; i < shape.vertex_count; ++i) {
+    vertices->emplace_back(Eigen::Map<const Vector>(shape.vertices + 3 * i));
+  }
+  const auto list = touchstone::face_list_of(shape);
+  return std::make_unique<fcl::Convexd>(
+      vertices, shape.face_count, std::make_shared<std::vector<int>>(list.begin(), list.end()));
+}
 
 Geometry make_geometry(const ts_shape& shape) {
   const double* s = shape.size;
@@ -44,6 +56,8 @@ Geometry make_geometry(const ts_shape& shape) {
       return std::make_unique<fcl::Capsuled>(s[0], 2 * s[1]);
     case TS_BOX:
       return std::make_unique<fcl::Boxd>(2 * s[0], 2 * s[1], 2 * s[2]);
+    case TS_CONVEX:
+      return make_convex(shape);
   }
   return nullptr;
 }

@@ -59,6 +59,8 @@ JPH::Ref<Shape> make_shape(const ts_shape& shape, double max_radius) {
     case TS_BOX:
       return new JPH::BoxShape(Vec3(to_float(s[0]), to_float(s[1]), to_float(s[2])),
                                radius(std::min({s[0], s[1], s[2]})));
+    case TS_CONVEX:
+      break;  // not supported
   }
   return nullptr;
 }
@@ -142,7 +144,7 @@ void query(ts_prepared* p, const ts_pose* a, const ts_pose* b, const double*, ts
   }
 }
 
-using touchstone::adapter::release, touchstone::adapter::supports_all;
+using touchstone::adapter::release, touchstone::adapter::supports_primitives;
 
 const std::string version = std::to_string(JPH_VERSION_MAJOR) + '.' +
                             std::to_string(JPH_VERSION_MINOR) + '.' +
@@ -151,10 +153,10 @@ const ts_candidate candidates[] = {
     {"jolt-native", version.c_str(),
      "single precision; sCollideShapeVsShape and the manifold of a world; convex radius 0.05 m, at "
      "most half of the smallest half extent",
-     nullptr, nullptr, supports_all, prepare<true>, query, release, nullptr, nullptr},
+     nullptr, nullptr, supports_primitives, prepare<true>, query, release, nullptr, nullptr},
     {"jolt-native-margin-0", version.c_str(),
      "single precision; sCollideShapeVsShape and the manifold of a world; convex radius 0", nullptr,
-     nullptr, supports_all, prepare<false>, query, release, nullptr, nullptr}};
+     nullptr, supports_primitives, prepare<false>, query, release, nullptr, nullptr}};
 const ts_plugin plugin = touchstone::adapter::plugin_of(candidates);
 
 }  // namespace

@@ -2,7 +2,8 @@
 //
 // Calls        libccd-gjk: ccdGJKPenetration (GJK, then EPA). libccd-mpr: ccdMPRPenetration.
 // Shapes       Exact support functions, as in libccd's own test suite; a half-space has none and is
-//              not supported.
+//              not supported. A convex body's is its vertex furthest along, and its centre, from
+//              which MPR searches, the mean of its vertices.
 // Tolerance    The parameter is epa_tolerance or mpr_tolerance; libccd's default is 1e-4, in metres
 //              for EPA. At most 100 iterations, as in libccd's README: without a bound EPA can
 //              hang.
@@ -15,6 +16,7 @@
 #include <ccd/ccd.h>
 #include <ccd/quat.h>
 #include <cmath>
+#include <limits>
 
 #include "candidates/adapter.hpp"
 
@@ -23,7 +25,14 @@ static_assert(sizeof(ccd_real_t) == sizeof(double), "built against single-precis
 namespace {
 
 struct Body {
-  ts_shape shape;
+  explicit Body(const ts_shape& of) : shape(of) {
+    if (of.kind != TS_CONVEX) return;
+    const auto middle = touchstone::adapter::middle_of(of);
+    ccdVec3Set(&centre, middle[0], middle[1], middle[2]);
+  }
+
+  touchstone::OwnedShape shape;
+  ccd_vec3_t centre{};  ///< local
   ccd_vec3_t position;
   ccd_quat_t orientation, inverse;  // local to world, world to local
 
@@ -36,6 +45,18 @@ struct Body {
 };
 
 double side(double direction, double extent) { return direction < 0 ? -extent : extent; }
+
+void support_of_hull(const ts_shape& hull, const ccd_vec3_t& d, ccd_vec3_t& p) {
+  double furthest = -std::numeric_limits<double>::infinity();
+  for (int i = 0; i < hull.vertex_count; ++i) {
+    ccd_vec3_t vertex;
+    ccdVec3Set(&vertex, hull.vertices[3 * i], hull.vertices[3 * i + 1], hull.vertices[3 * i + 2]);
+    const double along = ccdVec3Dot(&d, &vertex);
+    if (along <= furthest) continue;
+    furthest = along;
+    p = vertex;
+  }
+}
 
 /// The shape's point furthest along d, in its own frame.
 void support_locally(const ts_shape& shape, const ccd_vec3_t& d, ccd_vec3_t& p) {
@@ -58,6 +79,9 @@ void support_locally(const ts_shape& shape, const ccd_vec3_t& d, ccd_vec3_t& p) 
     case TS_BOX:
       ccdVec3Set(&p, side(v[0], s[0]), side(v[1], s[1]), side(v[2], s[2]));
       return;
+    case TS_CONVEX:
+      support_of_hull(shape, d, p);
+      return;
     case TS_PLANE:
       return;
   }
@@ -67,13 +91,16 @@ void support(const void* object, const ccd_vec3_t* direction, ccd_vec3_t* point)
   const Body& body = *static_cast<const Body*>(object);
   ccd_vec3_t d = *direction;
   ccdQuatRotVec(&d, &body.inverse);
-  support_locally(body.shape, d, *point);
+  support_locally(body.shape.get(), d, *point);
   ccdQuatRotVec(point, &body.orientation);
   ccdVec3Add(point, &body.position);
 }
 
 void centre(const void* object, ccd_vec3_t* point) {
-  *point = static_cast<const Body*>(object)->position;
+  const Body& body = *static_cast<const Body*>(object);
+  *point = body.centre;
+  ccdQuatRotVec(point, &body.orientation);
+  ccdVec3Add(point, &body.position);
 }
 
 }  // namespace
@@ -86,9 +113,7 @@ struct ts_prepared {
 namespace {
 
 ts_prepared* prepare(void*, const ts_shape* a, const ts_shape* b, double, double tolerance) {
-  auto* const p = new ts_prepared;
-  p->a.shape = *a;
-  p->b.shape = *b;
+  auto* const p = new ts_prepared{Body(*a), Body(*b), {}};
   CCD_INIT(&p->ccd);
   p->ccd.support1 = p->ccd.support2 = support;
   p->ccd.center1 = p->ccd.center2 = centre;

@@ -48,28 +48,50 @@ std::pair<Vec3, Vec3> closest_of_segments(const Vec3& p, const Vec3& d, const Ve
   return {p + s * d, q + t * e};
 }
 
-/// The point of a convex polygon (corners in order, counterclockwise) that is closest to p.
-Eigen::Vector2d closest_in_polygon(const std::vector<Vec3>& corners, std::size_t count,
-                                   const Eigen::Vector2d& p) {
-  Eigen::Vector2d best = p;
+/// The point of a convex polygon that is closest to p; its corners go counterclockwise about the
+/// normal.
+Vec3 closest_in_polygon(const std::vector<Vec3>& vertices, const std::vector<int>& corners,
+                        const Vec3& normal, const Vec3& p) {
+  Vec3 best = p - (p - vertices[corners[0]]).dot(normal) * normal;
   double min_squared = std::numeric_limits<double>::infinity();
-  bool inside = true;
-  for (std::size_t i = 0; i < count; ++i) {
-    const Eigen::Vector2d u = corners[i].head<2>(), v = corners[(i + 1) % count].head<2>();
-    const Eigen::Vector2d along = v - u, from = p - u;
-    if (along.x() * from.y() - along.y() * from.x() >= 0) continue;
-    inside = false;
-    const Eigen::Vector2d at =
-        u + std::clamp(from.dot(along) / along.squaredNorm(), 0.0, 1.0) * along;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vec3& u = vertices[corners[i]];
+    const Vec3 along = vertices[corners[(i + 1) % corners.size()]] - u, from = p - u;
+    if (along.cross(from).dot(normal) >= 0) continue;  // p is on the inner side
+    const Vec3 at = u + std::clamp(from.dot(along) / along.squaredNorm(), 0.0, 1.0) * along;
     if ((p - at).squaredNorm() < min_squared) {
       min_squared = (p - at).squaredNorm();
       best = at;
     }
   }
-  return inside ? p : best;
+  return best;
+}
+
+/// Of vertices that are a polygon and then another one, `sides` further on, each counterclockwise
+/// seen from above.
+std::vector<std::vector<int>> faces_of_prism(int sides) {
+  std::vector<std::vector<int>> faces(2);
+  for (int i = 0; i < sides; ++i) {
+    const int next = (i + 1) % sides;
+    faces[0].push_back(sides - 1 - i);
+    faces[1].push_back(sides + i);
+    faces.push_back({i, next, next + sides, i + sides});
+  }
+  return faces;
 }
 
 }  // namespace
+
+void RoundedPolytope::add_faces(const std::vector<std::vector<int>>& faces) {
+  for (const std::vector<int>& corners : faces) {
+    const Vec3& first = local_vertices_[corners[0]];
+    Vec3 area = Vec3::Zero();
+    for (std::size_t i = 2; i < corners.size(); ++i) {
+      area += (local_vertices_[corners[i - 1]] - first).cross(local_vertices_[corners[i]] - first);
+    }
+    faces_.push_back({corners, area.stableNormalized()});
+  }
+}
 
 RoundedPolytope RoundedPolytope::sphere(const Vec3& centre, double radius) {
   RoundedPolytope body;
@@ -103,6 +125,7 @@ RoundedPolytope RoundedPolytope::box(const Vec3& h) {
   for (int i = 0; i < 4; ++i) {
     body.edges_.insert(body.edges_.end(), {{i, (i + 1) % 4}, {i + 4, (i + 1) % 4 + 4}, {i, i + 4}});
   }
+  body.add_faces(faces_of_prism(4));
   body.place(Eigen::Matrix3d::Identity(), Vec3::Zero());
   return body;
 }
@@ -130,6 +153,35 @@ RoundedPolytope RoundedPolytope::prism(int sides, double radius, double half_len
     const int next = (i + 1) % sides;
     body.edges_.insert(body.edges_.end(), {{i, next}, {i + sides, next + sides}, {i, i + sides}});
   }
+  body.add_faces(faces_of_prism(sides));
+  body.place(Eigen::Matrix3d::Identity(), Vec3::Zero());
+  return body;
+}
+
+RoundedPolytope RoundedPolytope::hull(const ts_shape& convex) {
+  RoundedPolytope body;
+  for (int i = 0; i < convex.vertex_count; ++i) {
+    body.local_vertices_.emplace_back(Eigen::Map<const Vec3>(convex.vertices + 3 * i));
+  }
+  body.add_faces(faces_of(convex));
+  for (const Face& face : body.faces_) {
+    body.local_normals_.push_back(face.normal);
+    for (std::size_t i = 0; i < face.corners.size(); ++i) {
+      const int from = face.corners[i], to = face.corners[(i + 1) % face.corners.size()];
+      if (from > to) continue;  // the other face's turn
+      body.edges_.emplace_back(from, to);
+      body.local_edge_directions_.push_back(
+          (body.local_vertices_[to] - body.local_vertices_[from]).stableNormalized());
+    }
+  }
+  if (body.faces_.size() == 2) {
+    // A polygon is a prism of no height: its sides part it from what lies in its plane.
+    const Vec3 normal = body.faces_[0].normal;
+    for (const Vec3& edge : body.local_edge_directions_) {
+      body.local_normals_.push_back(edge.cross(normal));
+    }
+    body.local_edge_directions_.push_back(normal);
+  }
   body.place(Eigen::Matrix3d::Identity(), Vec3::Zero());
   return body;
 }
@@ -153,11 +205,18 @@ const Vec3& RoundedPolytope::support(const Vec3& n) const {
 
 Vec3 RoundedPolytope::closest_to(const Vec3& p) const {
   const Vec3 local = rotation_.transpose() * (p - position_);
-  const std::size_t corners = local_vertices_.size() / 2;
-  Vec3 closest;
-  closest.head<2>() = closest_in_polygon(local_vertices_, corners, local.head<2>());
-  const double half_length = local_vertices_.back().z();
-  closest.z() = std::clamp(local.z(), -half_length, half_length);
+  Vec3 closest = local;
+  double min_squared = std::numeric_limits<double>::infinity();
+  const bool is_flat = faces_.size() == 2;
+  for (const Face& face : faces_) {
+    const bool is_in_front = (local - local_vertices_[face.corners[0]]).dot(face.normal) > 0;
+    if (!is_in_front && !is_flat) continue;
+    const Vec3 at = closest_in_polygon(local_vertices_, face.corners, face.normal, local);
+    if ((local - at).squaredNorm() < min_squared) {
+      min_squared = (local - at).squaredNorm();
+      closest = at;
+    }
+  }
   return rotation_ * closest + position_;
 }
 
@@ -307,6 +366,8 @@ std::vector<RoundedPolytope> parts(const ts_shape& shape, const CylinderModel& m
       return {RoundedPolytope::capsule(s[0], s[1])};
     case TS_BOX:
       return {RoundedPolytope::box(Vec3(s[0], s[1], s[2]))};
+    case TS_CONVEX:
+      return {RoundedPolytope::hull(shape)};
     case TS_PLANE:
       return {};
   }

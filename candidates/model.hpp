@@ -6,14 +6,15 @@
 
 #include <Eigen/Geometry>
 
-#include "candidates/candidate.h"
+#include "candidates/ts_shape.hpp"
 
 namespace touchstone {
 
 using Vec3 = Eigen::Vector3d;
 
-/// All points within `radius` of a core: a point, a segment, a box or a right prism. Simplified
-/// models consist of these. Precondition of all queries: `place` has been called.
+/// All points within `radius` of a core: a point, a segment, a box, a right prism or a hull.
+/// Simplified models, and what they meet, consist of these. Precondition of all queries: `place`
+/// has been called.
 class RoundedPolytope {
  public:
   static RoundedPolytope sphere(const Vec3& centre, double radius);
@@ -24,6 +25,8 @@ class RoundedPolytope {
   /// The core is the prism between z = ±half_length over a regular polygon with `sides` corners on
   /// the circle of that radius, the first on +x.
   static RoundedPolytope prism(int sides, double radius, double half_length);
+  /// The core is a convex body of the C interface.
+  static RoundedPolytope hull(const ts_shape& convex);
 
   void place(const Eigen::Matrix3d& rotation, const Vec3& position);
 
@@ -37,13 +40,20 @@ class RoundedPolytope {
   const std::vector<Vec3>& edge_directions() const { return edge_directions_; }
   const std::vector<std::pair<int, int>>& edges() const {
     return edges_;
-  }  ///< as indices of vertices
-  bool is_solid() const { return !normals_.empty(); }
-  const Vec3& support(const Vec3& n) const;  ///< the vertex furthest along n
-  Vec3 closest_to(const Vec3& p) const;      ///< for a solid core; inside it, p itself
+  }                                                  ///< as indices of vertices
+  bool is_solid() const { return !faces_.empty(); }  ///< or a polygon
+  const Vec3& support(const Vec3& n) const;          ///< the vertex furthest along n
+  Vec3 closest_to(const Vec3& p) const;              ///< for a solid core; inside it, p itself
 
  private:
+  struct Face {
+    std::vector<int> corners;  ///< counterclockwise seen from outside
+    Vec3 normal;               ///< outward, in the core's frame
+  };
+  void add_faces(const std::vector<std::vector<int>>& faces);
+
   double radius_ = 0;
+  std::vector<Face> faces_;  ///< two of a polygon
   std::vector<Vec3> local_vertices_, local_normals_, local_edge_directions_;
   std::vector<std::pair<int, int>> edges_;
   std::vector<Vec3> vertices_, normals_, edge_directions_;

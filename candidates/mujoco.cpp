@@ -7,7 +7,10 @@
 //              go through libccd's MPR (mpr_tolerance 1e-6, mpr_iterations 50, both default).
 //              Several contacts by mjENBL_MULTICCD are off, as by default.
 // Shapes       Half lengths, a capsule's without its caps. A plane is solid below its frame's
-//              xy-plane; ours is given such a frame.
+//              xy-plane; ours is given such a frame. A convex body is a mesh asset of its vertices,
+//              whose hull MuJoCo makes; it keeps them in single precision, about their centre of
+//              mass and along their axes of inertia, and has none that is flat or of less than
+//              1e-15 m³.
 // Conventions  The lower geom type comes first; the normal points from it to the other one, and is
 //              reversed if the cylinder is first.
 // Cured        With TOUCHSTONE_CURED, Touchstone's contacts are installed in the table
@@ -19,9 +22,11 @@
 #include <cstddef>
 #include <cstdio>
 #include <cstring>
+#include <limits>
 #include <map>
 #include <memory>
 #include <mujoco/mujoco.h>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -44,24 +49,36 @@ mjtGeom geom_type(ts_shape_kind kind) {
       return mjGEOM_CAPSULE;
     case TS_BOX:
       return mjGEOM_BOX;
+    case TS_CONVEX:
+      return mjGEOM_MESH;
   }
   return mjGEOM_NONE;
 }
 
 const char* type_name(ts_shape_kind kind) {
-  constexpr const char* names[] = {"cylinder", "plane", "sphere", "capsule", "box"};
+  constexpr const char* names[] = {"cylinder", "plane", "sphere", "capsule", "box", "mesh"};
   return names[kind];
+}
+
+/// The asset of a convex body; else nothing.
+std::string asset_of(const ts_shape& other) {
+  if (other.kind != TS_CONVEX) return "";
+  std::ostringstream xml;
+  xml.precision(std::numeric_limits<double>::max_digits10);
+  xml << "<asset><mesh name='b' vertex='";
+  for (const double x : touchstone::coordinates_of(other)) xml << x << ' ';
+  xml << "'/></asset>";
+  return xml.str();
 }
 
 /// A model with a free cylinder and another geom in the world, both of size one. Its stack and its
 /// room for constraints, which a collision function does not use, are small: the usual ones of many
 /// megabytes are written with zeros, which takes longer than a thousand queries.
-mjModel* make_model(ts_shape_kind other) {
-  const std::string xml = std::string(
-                              "<mujoco><size nstack='10000' njmax='1' nconmax='1'/><worldbody>"
-                              "<geom type='") +
-                          type_name(other) +
-                          "' size='1 1 1'/><body><freejoint/><geom type='cylinder' size='1 1'/>"
+mjModel* make_model(const ts_shape& other) {
+  const std::string xml = "<mujoco><size nstack='10000' njmax='1' nconmax='1'/>" + asset_of(other) +
+                          "<worldbody><geom type='" + type_name(other.kind) +
+                          (other.kind == TS_CONVEX ? "' mesh='b" : "' size='1 1 1") +
+                          "'/><body><freejoint/><geom type='cylinder' size='1 1'/>"
                           "</body></worldbody></mujoco>";
   const auto files = std::make_unique<mjVFS>();
   mj_defaultVFS(files.get());
@@ -75,19 +92,25 @@ mjModel* make_model(ts_shape_kind other) {
 }
 
 struct Scene {
+  explicit Scene(mjModel* made) : model(made), data(mj_makeData(made)) {}
+  ~Scene() {
+    mj_deleteData(data);
+    mj_deleteModel(model);
+  }
+  Scene(const Scene&) = delete;
+  Scene& operator=(const Scene&) = delete;
+
   mjModel* model;
   mjData* data;
 };
 
-/// The scene for one kind of shape, made on first use.
-Scene scene_for(ts_shape_kind other) {
-  static std::map<ts_shape_kind, Scene> scenes;
-  const auto [at, is_new] = scenes.try_emplace(other);
-  if (is_new) {
-    at->second.model = make_model(other);
-    at->second.data = mj_makeData(at->second.model);
-  }
-  return at->second;
+/// The scene for one kind of shape, made on first use; for a convex body one of its own.
+std::shared_ptr<const Scene> scene_for(const ts_shape& other) {
+  static std::map<ts_shape_kind, std::shared_ptr<const Scene>> scenes;
+  if (other.kind == TS_CONVEX) return std::make_shared<Scene>(make_model(other));
+  auto& scene = scenes[other.kind];
+  if (!scene) scene = std::make_shared<Scene>(make_model(other));
+  return scene;
 }
 
 constexpr int geom_b = 0, geom_a = 1;  // as in the XML
@@ -95,7 +118,7 @@ constexpr int geom_b = 0, geom_a = 1;  // as in the XML
 }  // namespace
 
 struct ts_prepared {
-  Scene scene;
+  std::shared_ptr<const Scene> scene;
   ts_shape a, b;
   double threshold;
   mjfCollision collide;
@@ -105,7 +128,7 @@ struct ts_prepared {
 
 namespace {
 
-ts_prepared* prepare(void*, const ts_shape* a, const ts_shape* b, double threshold, double) {
+ts_prepared* prepare(void*, const ts_shape* a, const ts_shape* b, double threshold, double) try {
 #ifdef TOUCHSTONE_CURED
   touchstone::mujoco::install();
 #endif
@@ -115,9 +138,11 @@ ts_prepared* prepare(void*, const ts_shape* a, const ts_shape* b, double thresho
                                               : mjCOLLISIONFUNC[type][mjGEOM_CYLINDER];
   if (!collide) return nullptr;
   auto* const p =
-      new ts_prepared{scene_for(b->kind), *a, *b, threshold, collide, cylinder_first, {1, 0, 0, 0}};
+      new ts_prepared{scene_for(*b), *a, *b, threshold, collide, cylinder_first, {1, 0, 0, 0}};
   if (b->kind == TS_PLANE) mju_quatZ2Vec(p->plane_frame, b->size);
   return p;
+} catch (const std::runtime_error&) {
+  return nullptr;  // no mesh can be made of the vertices
 }
 
 void place(const Scene& scene, std::ptrdiff_t geom, const double* position,
@@ -128,21 +153,27 @@ void place(const Scene& scene, std::ptrdiff_t geom, const double* position,
 
 void query(ts_prepared* p, const ts_pose* a, const ts_pose* b, const double*, ts_answer* answer) {
   // A model serves all pairs of the same kinds, so that its sizes are set with every query.
-  mju_copy3(p->scene.model->geom_size + std::ptrdiff_t{3} * geom_a, p->a.size);
-  place(p->scene, geom_a, a->position, a->orientation);
+  const Scene& scene = *p->scene;
+  mju_copy3(scene.model->geom_size + std::ptrdiff_t{3} * geom_a, p->a.size);
+  place(scene, geom_a, a->position, a->orientation);
   if (p->b.kind == TS_PLANE) {
     double orientation[4], normal[3], position[3];
     mju_mulQuat(orientation, b->orientation, p->plane_frame);
     mju_rotVecQuat(normal, p->b.size, b->orientation);
     mju_addScl3(position, b->position, normal, p->b.size[3]);
-    place(p->scene, geom_b, position, orientation);
+    place(scene, geom_b, position, orientation);
+  } else if (p->b.kind == TS_CONVEX) {
+    double orientation[4], position[3];
+    mju_mulPose(position, orientation, b->position, b->orientation, scene.model->geom_pos,
+                scene.model->geom_quat);
+    place(scene, geom_b, position, orientation);
   } else {
-    mju_copy3(p->scene.model->geom_size + std::ptrdiff_t{3} * geom_b, p->b.size);
-    place(p->scene, geom_b, b->position, b->orientation);
+    mju_copy3(scene.model->geom_size + std::ptrdiff_t{3} * geom_b, p->b.size);
+    place(scene, geom_b, b->position, b->orientation);
   }
   mjContact contacts[mjMAXCONPAIR];
   const int count =
-      p->collide(p->scene.model, p->scene.data, contacts, p->cylinder_first ? geom_a : geom_b,
+      p->collide(scene.model, scene.data, contacts, p->cylinder_first ? geom_a : geom_b,
                  p->cylinder_first ? geom_b : geom_a, p->threshold);
   touchstone::adapter::begin(*answer);
   for (int i = 0; i < count; ++i) {
@@ -152,14 +183,19 @@ void query(ts_prepared* p, const ts_pose* a, const ts_pose* b, const double*, ts
   }
 }
 
-using touchstone::adapter::release, touchstone::adapter::supports_all;
+using touchstone::adapter::release;
+#ifdef TOUCHSTONE_CURED
+using touchstone::adapter::supports_primitives;
+#else
+using touchstone::adapter::supports_all;
+#endif
 
 const ts_candidate candidates[] = {
 #ifdef TOUCHSTONE_CURED
     {"mujoco+touchstone", mj_versionString(),
      "double precision; the pair's function in mjCOLLISIONFUNC with Touchstone's contacts of "
      "cylinders installed",
-     nullptr, nullptr, supports_all, prepare, query, release, nullptr, nullptr}};
+     nullptr, nullptr, supports_primitives, prepare, query, release, nullptr, nullptr}};
 #else
     {"mujoco", mj_versionString(),
      "double precision; the pair's function in mjCOLLISIONFUNC; plane analytic, others "

@@ -3,8 +3,11 @@
 // Calls        dCollide on two geoms without spaces, asked for TOUCHSTONE_MAX_POINTS contacts.
 // Routes       As Debian builds it: sphere and plane are ODE's own closed forms, the box its
 //              separating-axis code with clipping, the capsule libccd's MPR, the cylinder special
-//              code for nearly parallel axes and otherwise libccd's MPR.
-// Shapes       Full lengths; a capsule's length is without its caps; a plane is a·x = d.
+//              code for nearly parallel axes and otherwise libccd's MPR, the convex body libccd's
+//              MPR.
+// Shapes       Full lengths; a capsule's length is without its caps; a plane is a·x = d. A convex
+//              body is dCreateConvex of its faces about the mean of its vertices, for MPR searches
+//              from a geom's origin.
 // Conventions  The normal points into the first geom, hence from B to A for a call with A first;
 //              depth is positive inside. Positions are where ODE puts them (on the cylinder for a
 //              plane, inside both bodies for MPR).
@@ -16,6 +19,7 @@
 // Planes       A plane geom has no pose, so that a posed plane is transformed to world coordinates
 //              at every query.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -46,9 +50,63 @@ dGeomID make_geom(const ts_shape& shape) {
       return dCreateCapsule(nullptr, s[0], 2 * s[1]);
     case TS_BOX:
       return dCreateBox(nullptr, 2 * s[0], 2 * s[1], 2 * s[2]);
+    case TS_CONVEX:
+      break;  // a Hull
   }
   return nullptr;
 }
+
+/// A convex body about the mean of its vertices; ODE keeps pointers to all of it.
+class Hull {
+ public:
+  explicit Hull(const ts_shape& shape) : middle_(touchstone::adapter::middle_of(shape)) {
+    const auto coordinates = touchstone::coordinates_of(shape);
+    for (std::size_t i = 0; i < coordinates.size(); ++i) {
+      corners_.push_back(coordinates[i] - middle_[i % 3]);
+    }
+    for (const std::vector<int>& face : touchstone::faces_of(shape)) {
+      polygons_.push_back(static_cast<unsigned>(face.size()));
+      polygons_.insert(polygons_.end(), face.begin(), face.end());
+      add_plane(face);
+    }
+  }
+  Hull(const Hull&) = delete;
+  Hull& operator=(const Hull&) = delete;
+
+  dGeomID make_geom() const {
+    return dCreateConvex(nullptr, planes_.data(), static_cast<unsigned>(planes_.size() / 4),
+                         corners_.data(), static_cast<unsigned>(corners_.size() / 3),
+                         polygons_.data());
+  }
+  /// Where the geom's origin is for a body at this pose.
+  ts_pose at(const ts_pose& pose) const {
+    dMatrix3 turn;
+    dRfromQ(turn, pose.orientation);
+    const dVector3 middle = {middle_[0], middle_[1], middle_[2]};
+    dVector3 offset;
+    dMultiply0_331(offset, turn, middle);
+    ts_pose result = pose;
+    for (int i = 0; i < 3; ++i) result.position[i] += offset[i];
+    return result;
+  }
+
+ private:
+  touchstone::Vec3 corner(int i) const {
+    return Eigen::Map<const touchstone::Vec3>(corners_.data() + std::ptrdiff_t{3} * i);
+  }
+  void add_plane(const std::vector<int>& face) {
+    touchstone::Vec3 area = touchstone::Vec3::Zero();
+    for (std::size_t i = 2; i < face.size(); ++i) {
+      area += (corner(face[i - 1]) - corner(face[0])).cross(corner(face[i]) - corner(face[0]));
+    }
+    const touchstone::Vec3 n = area.stableNormalized();
+    planes_.insert(planes_.end(), {n.x(), n.y(), n.z(), n.dot(corner(face[0]))});
+  }
+
+  std::array<double, 3> middle_;
+  std::vector<double> corners_, planes_;
+  std::vector<unsigned> polygons_;
+};
 
 /// The surface of a prism; ODE keeps pointers to the corners and indices.
 class Mesh {
@@ -89,17 +147,18 @@ class Mesh {
 struct ts_prepared {
  public:
   ts_prepared(const ts_shape& a, const ts_shape& b)
-      : shape_b_(b), a_(make_geom(a)), b_(make_geom(b)) {}
+      : shape_b_(b), hull_(hull_of(b)), a_(make_geom(a)), b_(geom_of_b()) {}
   /// A as a mesh.
   ts_prepared(const ts_shape& a, const ts_shape& b, int sides)
       : shape_b_(b),
+        hull_(hull_of(b)),
         mesh_(std::make_unique<Mesh>(sides, a.size[0], a.size[1])),
         model_(std::in_place, a, b,
                [sides](double radius, double half_length) {
                  return touchstone::inscribed_prism(sides, radius, half_length);
                }),
         a_(mesh_->make_geom()),
-        b_(make_geom(b)) {}
+        b_(geom_of_b()) {}
   ~ts_prepared() {
     dGeomDestroy(a_);
     dGeomDestroy(b_);
@@ -112,7 +171,7 @@ struct ts_prepared {
     if (shape_b_.kind == TS_PLANE) {
       place_plane(b);
     } else {
-      place(b_, b);
+      place(b_, hull_ ? hull_->at(b) : b);
     }
     // A mesh gives points on every triangle, and the deepest may come last.
     constexpr int max_contacts = 64;
@@ -137,6 +196,11 @@ struct ts_prepared {
   }
 
  private:
+  static std::unique_ptr<Hull> hull_of(const ts_shape& b) {
+    return b.kind == TS_CONVEX ? std::make_unique<Hull>(b) : nullptr;
+  }
+  dGeomID geom_of_b() const { return hull_ ? hull_->make_geom() : make_geom(shape_b_); }
+
   static void place(dGeomID geom, const ts_pose& pose) {
     dGeomSetPosition(geom, pose.position[0], pose.position[1], pose.position[2]);
     dGeomSetQuaternion(geom, pose.orientation);
@@ -153,6 +217,7 @@ struct ts_prepared {
   }
 
   ts_shape shape_b_;
+  std::unique_ptr<Hull> hull_;  ///< B as a convex body; else null
   std::unique_ptr<Mesh> mesh_;
   std::optional<touchstone::ModelPair> model_;
   dGeomID a_, b_;
@@ -160,7 +225,8 @@ struct ts_prepared {
 
 namespace {
 
-using touchstone::adapter::release, touchstone::adapter::supports_all;
+using touchstone::adapter::release, touchstone::adapter::supports_all,
+    touchstone::adapter::supports_primitives;
 
 ts_prepared* prepare(void*, const ts_shape* a, const ts_shape* b, double, double) {
   touchstone::initialise_ode();
@@ -181,7 +247,7 @@ const ts_candidate candidates[] = {
     {"ode+touchstone", TOUCHSTONE_ODE_VERSION,
      "double precision; dCollide with Touchstone's contacts of cylinders installed, asked for 16; "
      "positions halfway between the surfaces",
-     nullptr, nullptr, supports_all, prepare, query, release, nullptr, nullptr}};
+     nullptr, nullptr, supports_primitives, prepare, query, release, nullptr, nullptr}};
 
 #else
 
@@ -198,8 +264,9 @@ const ts_parameter sides = {"number of sides", 3, 128, 16, 1, 0};
 
 const ts_candidate candidates[] = {
     {"ode", TOUCHSTONE_ODE_VERSION,
-     "double precision; dCollide asked for 16 contacts; cylinder and capsule through libccd's MPR, "
-     "box by separating axes and clipping, plane and sphere analytic; positions as ODE gives them",
+     "double precision; dCollide asked for 16 contacts; cylinder, capsule and convex body through "
+     "libccd's MPR, box by separating axes and clipping, plane and sphere analytic; positions as "
+     "ODE gives them",
      nullptr, nullptr, supports_all, prepare, query, release, nullptr, nullptr},
     {"ode-mesh", TOUCHSTONE_ODE_VERSION,
      "double precision; dCollide of a triangle mesh and a primitive, asked for 64 contacts of "

@@ -6,18 +6,22 @@
 // Threshold    Passed on; a distance beyond it is answered with none, and then signed_distance is
 //              the clearance along the first direction that proves it.
 // Hint         Passed on; it decides between normals whose gaps are within the threshold.
+// Convex       In double precision alone.
 #include <optional>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "candidates/adapter.hpp"
 #include "reference/touchstone.hpp"
 
 using touchstone::Cylinder;
 using touchstone::Sphere;
-using touchstone::adapter::copy, touchstone::adapter::release, touchstone::adapter::supports_all;
+using touchstone::adapter::copy, touchstone::adapter::release;
 
 #ifdef TOUCHSTONE_SINGLE_PRECISION
+using touchstone::adapter::supports_primitives;
+constexpr auto supports = supports_primitives;
 using Scalar = float;
 using Pose = touchstone::FloatPose;
 using Vec3 = Eigen::Vector3f;
@@ -27,6 +31,8 @@ constexpr const char* settings =
     "Touchstone's own routines, poses and answers in single precision; points halfway between the "
     "surfaces";
 #else
+using touchstone::adapter::supports_all;
+constexpr auto supports = supports_all;
 using Scalar = double;
 using touchstone::Contact;
 using touchstone::Pose;
@@ -90,6 +96,16 @@ struct PreparedPair : ts_prepared {
   Other b;
 };
 
+#ifndef TOUCHSTONE_SINGLE_PRECISION
+touchstone::Convex to_convex(const ts_shape& shape) {
+  std::vector<Vec3> vertices;
+  for (int i = 0; i < shape.vertex_count; ++i) {
+    vertices.emplace_back(Eigen::Map<const Vec3>(shape.vertices + 3 * i));
+  }
+  return {std::move(vertices), touchstone::faces_of(shape)};
+}
+#endif
+
 ts_prepared* prepare(void*, const ts_shape* a, const ts_shape* b, double threshold, double) {
   const Cylinder cylinder(a->size[0], a->size[1]);
   const double* s = b->size;
@@ -110,6 +126,11 @@ ts_prepared* prepare(void*, const ts_shape* a, const ts_shape* b, double thresho
     case TS_BOX:
       prepared = new PreparedPair(cylinder, touchstone::Box({s[0], s[1], s[2]}));
       break;
+    case TS_CONVEX:
+#ifndef TOUCHSTONE_SINGLE_PRECISION
+      prepared = new PreparedPair(cylinder, to_convex(*b));
+#endif
+      break;
   }
   if (prepared) prepared->threshold = threshold;
   return prepared;
@@ -127,8 +148,8 @@ void query(ts_prepared* prepared, const ts_pose* a, const ts_pose* b, const doub
   answer->status = TS_FAILED;  // a position beyond what float holds
 }
 
-const ts_candidate candidates[] = {{name, TOUCHSTONE_VERSION, settings, nullptr, nullptr,
-                                    supports_all, prepare, query, release, nullptr, nullptr}};
+const ts_candidate candidates[] = {{name, TOUCHSTONE_VERSION, settings, nullptr, nullptr, supports,
+                                    prepare, query, release, nullptr, nullptr}};
 const ts_plugin plugin = touchstone::adapter::plugin_of(candidates);
 
 }  // namespace

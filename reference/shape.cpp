@@ -159,6 +159,8 @@ Convex::Convex(std::vector<Vec3> vertices, std::vector<std::vector<int>> faces) 
     }
     face.normal = area.stableNormalized();
     areas.push_back(area);
+    data->face_list.push_back(static_cast<int>(face.vertices.size()));
+    data->face_list.insert(data->face_list.end(), face.vertices.begin(), face.vertices.end());
     data->faces.push_back(std::move(face));
   }
   data->edges = edges_of(data->faces);

@@ -111,6 +111,8 @@ class Convex {
   const std::vector<Vec3>& vertices() const { return data_->vertices; }
   const std::vector<Face>& faces() const { return data_->faces; }
   const std::vector<Edge>& edges() const { return data_->edges; }
+  /// The faces as engines take them: of each the number of its vertices, and then these.
+  const std::vector<int>& face_list() const { return data_->face_list; }
   /// A polygon: without an interior.
   bool is_flat() const { return faces().size() == 2; }
   /// Half of the widths along the local axes, and the middle between them.
@@ -129,6 +131,7 @@ class Convex {
     std::vector<Vec3> vertices;
     std::vector<Face> faces;
     std::vector<Edge> edges;
+    std::vector<int> face_list;
     Vec3 half_extents, middle;
     double smallest_half_extent;
     std::shared_ptr<const ConvexTables> tables;

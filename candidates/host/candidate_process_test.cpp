@@ -19,6 +19,7 @@
 #include "candidates/host/exchange.hpp"
 #include "candidates/host/watch.hpp"
 #include "candidates/testing/plain_contacts.hpp"
+#include "oracle/hull.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone {
@@ -374,13 +375,87 @@ const Candidate& of_plugin(const char* file, const std::string& name) {
   return find_candidate(name);
 }
 
-TEST(PluginProcess, OneMadeForVersion3IsAsked) {
+/// A pyramid over that many corners, whose tip is the first vertex.
+Convex pyramid(int corners, double height) {
+  std::vector<Vec3> points = {{0, 0, height}};
+  for (int i = 0; i < corners; ++i) {
+    const double angle = 2 * M_PI * i / corners;
+    points.emplace_back(std::cos(angle), std::sin(angle), 0);
+  }
+  return oracle::convex_hull(points);
+}
+
+Configuration beside(const Convex& body) {
+  return {Cylinder(1, 1), Pose({3, 0, 0}, upright), body, Pose()};
+}
+
+TEST(PluginProcess, OneMadeForAnEarlierVersionIsAskedAboutTheShapesThatItKnows) {
   const Configuration sphere{Cylinder(1, 1), Pose(), Sphere(1), Pose()};
-  CandidateProcess first(of_plugin("touchstone-version_3.so", "old-one:5"), 0.25);
-  EXPECT_EQ(first.answer(sphere).signed_distance, -5.25);
-  EXPECT_EQ(first.answer(standing).status, TS_UNSUPPORTED);
-  CandidateProcess second(of_plugin("touchstone-version_3.so", "old-two"), 0.25);
-  EXPECT_EQ(second.answer(sphere).signed_distance, -0.25);
+  for (const std::string version : {"3", "4"}) {
+    const std::string file = "touchstone-version_" + version + ".so", name = "old-" + version;
+    CandidateProcess first(of_plugin(file.c_str(), name + "-one:5"), 0.25);
+    EXPECT_EQ(first.answer(sphere).signed_distance, -5.25) << name;
+    EXPECT_EQ(first.answer(standing).status, TS_UNSUPPORTED) << name;
+    EXPECT_EQ(first.answer(beside(pyramid(4, 1))).status, TS_UNSUPPORTED) << name;
+    CandidateProcess second(of_plugin(file.c_str(), name + "-two"), 0.25);
+    EXPECT_EQ(second.answer(sphere).signed_distance, -0.25) << name;
+  }
+}
+
+/// As the candidate weighing answers.
+double weight(const Convex& body) {
+  double sum = 0;
+  int place = 0;
+  for (const Vec3& v : body.vertices()) {
+    for (const double x : v) sum += ++place * x;
+  }
+  for (const Convex::Face& face : body.faces()) {
+    sum += ++place * static_cast<double>(face.vertices.size());
+    for (const int i : face.vertices) sum += ++place * i;
+  }
+  return sum;
+}
+
+// Pointers lead nowhere in another process.
+TEST(CandidateProcess, GivesEveryQuestionItsConvexBody) {
+  std::vector<Configuration> asked;
+  for (int i = 0; i < static_cast<int>(batch_size) + 5; ++i) {  // of neighbours some are the same
+    asked.push_back(beside(pyramid(3 + i / 2 % 5, 1 + i / 3)));
+  }
+  asked[7] = beside(oracle::convex_hull({{0, 0, 1}, {1, 0, 1}, {0, 1, 1}}));
+  asked[8] = standing;
+  const auto right = [](const Configuration& c) {
+    const auto* const body = std::get_if<Convex>(&c.b);
+    return body ? weight(*body) : 0;
+  };
+  CandidateProcess process(sabotage("weighing"), 0);
+  const std::vector<Answer> answers = process.answers(asked);
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    EXPECT_EQ(answers[i].signed_distance, right(asked[i])) << i;
+  }
+  for (const Configuration& c : asked) {  // some of which are ready
+    EXPECT_EQ(process.answer(c).signed_distance, right(c));
+  }
+  EXPECT_TRUE(process.prepare_timing(asked));
+  EXPECT_TRUE(process.cost_per_query());
+}
+
+TEST(CandidateProcess, GivesTheLargestConvexBodies) {
+  // Two tips over a polygon: as many faces and edges as there may be.
+  constexpr int corners = static_cast<int>(Convex::max_vertices) - 2;
+  std::vector<Vec3> vertices = {{0, 0, 1}, {0, 0, -1}};
+  std::vector<std::vector<int>> faces;
+  for (int i = 0; i < corners; ++i) {
+    const double angle = 2 * M_PI * i / corners;
+    vertices.emplace_back(std::cos(angle), std::sin(angle), 0);
+    const int here = 2 + i, next = 2 + (i + 1) % corners;
+    faces.insert(faces.end(), {{here, next, 0}, {next, here, 1}});
+  }
+  const Configuration c = beside(Convex(vertices, faces));
+  CandidateProcess process(sabotage("weighing"), 0);
+  for (const Answer& a : process.answers(std::vector(batch_size, c))) {
+    EXPECT_EQ(a.signed_distance, weight(std::get<Convex>(c.b)));
+  }
 }
 
 class Threads : public testing::TestWithParam<const char*> {
@@ -426,7 +501,7 @@ TEST(PluginProcess, RefusesWhatIsNoPlugin) {
   const std::string folder = TOUCHSTONE_TEST_PLUGINS;
   refused("nowhere.so", "must be a file");
   refused("/etc/passwd", "must be a plug-in, which is a shared object (.so)");
-  refused(folder + "/touchstone-old.so", "version 2 of candidate.h; this is version 4");
+  refused(folder + "/touchstone-old.so", "version 2 of candidate.h; this is version 5");
   refused(folder + "/touchstone-deadly.so", "Aborted");
   refused(folder + "/touchstone-outside.so", "whose name is not of up to 63 characters");
   refused(folder + "/touchstone-twins.so", "must not bring \"twin\", a name that is taken");

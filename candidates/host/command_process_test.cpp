@@ -8,6 +8,7 @@
 #include "candidates/candidates.hpp"
 #include "candidates/host/candidate_process.hpp"
 #include "candidates/host/plugin_process.hpp"
+#include "oracle/hull.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone {
@@ -27,7 +28,7 @@ Candidate told(const std::string& format, const std::string& deed = "none") {
   Candidate candidate;
   candidate.name = candidate.family = "told";
   candidate.value = 2;
-  candidate.supports[TS_SPHERE] = candidate.supports[TS_BOX] = true;
+  candidate.supports[TS_SPHERE] = candidate.supports[TS_BOX] = candidate.supports[TS_CONVEX] = true;
   candidate.origin = Candidate::Command{command(format, deed), std::filesystem::current_path(),
                                         format == "frames"};
   return candidate;
@@ -57,6 +58,7 @@ double expected(const Configuration& c, double threshold, double parameter) {
   const ts_pose pose_a = to_ts_pose(c.pose_a), pose_b = to_ts_pose(c.pose_b);
   double sum = threshold + parameter;
   for (const auto* shape : {&a, &b}) sum += shape->size[0] + shape->size[1] + shape->size[2];
+  for (const double x : coordinates_of(b)) sum += x;
   for (const auto* pose : {&pose_a, &pose_b}) {
     for (const double x : pose->position) sum += x;
     for (const double x : pose->orientation) sum += x;
@@ -86,6 +88,16 @@ TEST_P(Formats, CarryEveryNumberThereAndBack) {
   ASSERT_EQ(answers.size(), asked.size());
   for (std::size_t i = 0; i < asked.size(); ++i) expect_true_answer(answers[i], asked[i]);
   expect_true_answer(process.answer(asked[7]), asked[7]);
+}
+
+TEST_P(Formats, CarryTheVerticesOfConvexBodies) {
+  CandidateProcess process(told(GetParam()), 0.125);
+  auto asked = configurations(6, {});
+  for (const int i : {1, 2, 5}) {
+    asked[i].b = oracle::convex_hull({{0.1, 0, 0}, {0, 0.2, 0}, {0, 0, 0.3}, {-1.0 * i, -1, -1}});
+  }
+  const std::vector<Answer> answers = process.answers(asked);
+  for (std::size_t i = 0; i < asked.size(); ++i) expect_true_answer(answers[i], asked[i]);
 }
 
 TEST_P(Formats, APairWithoutARoutineIsUnsupported) {

@@ -1,8 +1,7 @@
 #pragma once
 
-#include <array>
+#include <algorithm>
 #include <atomic>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -11,7 +10,7 @@
 #include <string_view>
 #include <sys/types.h>
 
-#include "candidates/candidate.h"
+#include "candidates/ts_shape.hpp"
 
 namespace touchstone {
 
@@ -55,9 +54,32 @@ inline constexpr const char* candidate_names =
     "up to 63 characters of printable ASCII without colon, comma, slash or space, not beginning "
     "with a hyphen";
 
-/// Shared memory that the candidate's processes cannot write to.
+/// What a convex body's pointers lead to, which in another process lead nowhere.
+struct Hull {
+  static constexpr std::size_t max_vertices = 4096;
+  double coordinates[3 * max_vertices];
+  /// V vertices have at most 3 V edges, each in two faces, and 2 V faces.
+  int face_list[8 * max_vertices];
+};
+
+/// Shared memory that the candidate's processes cannot write to. What is never written takes none.
 struct Questions {
   Question slots[batch_size];
+  Hull hulls[batch_size];  ///< the slots' bodies B, where they are convex
+
+  void put(std::size_t i, const Question& question) {
+    slots[i] = question;
+    std::ranges::copy(coordinates_of(question.b), hulls[i].coordinates);
+    std::ranges::copy(face_list_of(question.b), hulls[i].face_list);
+  }
+  /// Its pointers lead into this.
+  Question get(std::size_t i) const {
+    Question question = slots[i];
+    if (question.b.kind != TS_CONVEX) return question;
+    question.b.vertices = hulls[i].coordinates;
+    question.b.faces = hulls[i].face_list;
+    return question;
+  }
 };
 
 /// Shared memory, zero at first.
@@ -138,7 +160,7 @@ struct Description {
   char name[64], version[256], settings[4096], models[1024], meaning[256];
   double min, max, usual;
   bool has_parameter, whole, bare;
-  bool supports[5];
+  bool supports[shape_kinds];
   bool unforked;
   // Of a command; empty and false of a plug-in.
   char precision[8], runs[8];
@@ -158,12 +180,6 @@ void copy_text(const char* from, char (&to)[size]) {
 
 /// Exit code of a session that ended by an exception.
 inline constexpr int exit_thrown = 97;
-
-/// Are the shapes equal to the bit?
-inline bool same(const ts_shape& x, const ts_shape& y) {
-  using Bits = std::array<std::uint64_t, 4>;
-  return x.kind == y.kind && std::bit_cast<Bits>(x.size) == std::bit_cast<Bits>(y.size);
-}
 
 // Messages on the candidate's side. They end the process if the harness has gone.
 void send(int socket, const void* message, std::size_t size);

@@ -31,8 +31,9 @@ static_assert(sizeof(ts_point) == point_size);
 
 constexpr const char* pairs_text =
     "\"cylinder-plane\", \"cylinder-sphere\", \"cylinder-capsule\", \"cylinder-cylinder\", "
-    "\"cylinder-box\"";
-constexpr const char* shape_names[] = {"cylinder", "plane", "sphere", "capsule", "box"};
+    "\"cylinder-box\", \"cylinder-convex\"";
+constexpr const char* shape_names[] = {"cylinder", "plane", "sphere", "capsule", "box", "convex"};
+static_assert(std::size(shape_names) == shape_kinds);
 
 /// Levels of a message, as of other JSON (docs/your-poses.md); printing deeper ones would take the
 /// stack.
@@ -128,9 +129,10 @@ class Writer {
   void put(const T& value) {
     bytes_.append(reinterpret_cast<const char*>(&value), sizeof value);
   }
+  /// Without vertices, which follow the entries.
   void put(const ts_shape& shape) {
     put(static_cast<std::uint32_t>(shape.kind));
-    put(std::uint32_t{0});
+    put(static_cast<std::uint32_t>(shape.vertex_count));
     put(shape.size);
   }
   std::string take() {
@@ -236,6 +238,13 @@ Json shape_json(const ts_shape& s) {
       break;
     case TS_BOX:
       json["half_extents"] = {size[0], size[1], size[2]};
+      break;
+    case TS_CONVEX:
+      json["vertices"] = Json::array();
+      for (int i = 0; i < s.vertex_count; ++i) {
+        const double* const v = s.vertices + 3 * i;
+        json["vertices"].push_back({v[0], v[1], v[2]});
+      }
   }
   return json;
 }
@@ -382,6 +391,7 @@ Request prepare_request(Format format, std::uint64_t ticket, const PairOfShapes&
   out.put(p.parameter);
   out.put(p.a);
   out.put(p.b);
+  for (const double x : coordinates_of(p.b)) out.put(x);
   request.text = out.take();
   return request;
 }

@@ -11,6 +11,7 @@
 namespace touchstone::messages {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
@@ -31,6 +32,8 @@ TEST(Hello, IsReadAndUnknownMembersAreIgnored) {
   EXPECT_STREQ(hello.runs, "wasm");
   EXPECT_TRUE(hello.supports[TS_BOX]);
   EXPECT_FALSE(hello.supports[TS_PLANE]);
+  EXPECT_FALSE(hello.supports[TS_CONVEX]);
+  EXPECT_TRUE(read_hello(hello_with("box", "convex")).supports[TS_CONVEX]);
   EXPECT_FALSE(hello.has_parameter);
 }
 
@@ -75,7 +78,7 @@ T at(const std::string& bytes, std::size_t offset) {
 }
 
 TEST(Frames, LieAsSpecified) {
-  const PairOfShapes pair{7, 0.25, 16, {TS_CYLINDER, {0.5, 1}}, {TS_PLANE, {0, 0, 1, -2}}};
+  const PairOfShapes pair{7, 0.25, 16, sized(TS_CYLINDER, 0.5, 1), sized(TS_PLANE, 0, 0, 1, -2)};
   const std::string prepare = prepare_request(Format::frames, 3, pair).text;
   ASSERT_EQ(prepare.size(), 24u + 104);
   EXPECT_EQ(at<std::uint32_t>(prepare, 0), 20u + 104);
@@ -89,6 +92,7 @@ TEST(Frames, LieAsSpecified) {
   EXPECT_EQ(at<std::uint32_t>(prepare, 48), 0u);
   EXPECT_EQ(at<double>(prepare, 56), 0.5);
   EXPECT_EQ(at<std::uint32_t>(prepare, 88), 1u);
+  EXPECT_EQ(at<std::uint32_t>(prepare, 92), 0u);
   EXPECT_EQ(at<double>(prepare, 96 + 24), -2);
 
   const Poses poses[] = {some_poses(7), some_poses(8)};
@@ -102,6 +106,32 @@ TEST(Frames, LieAsSpecified) {
   EXPECT_EQ(at<std::uint32_t>(query_request(Format::frames, 5, poses, 640).text, 20), 640u);
   const std::uint32_t handles[] = {7, 8};
   EXPECT_EQ(release_request(Format::frames, 6, handles).text.size(), 24u + 8);
+}
+
+constexpr double corners[] = {0, 0, 0, 0.1 + 0.2, 0, 0, 0, -1e-300, 1};
+constexpr int both_sides[] = {3, 0, 1, 2, 3, 0, 2, 1};
+constexpr ts_shape triangle{TS_CONVEX, {}, corners, both_sides, 3, 2};
+
+TEST(Frames, HaveAConvexBodysVerticesAfterTheEntries) {
+  const PairOfShapes pair{7, 0, 0, sized(TS_CYLINDER, 0.5, 1), triangle};
+  const std::string prepare = prepare_request(Format::frames, 3, pair).text;
+  ASSERT_EQ(prepare.size(), 24u + 104 + 3 * 24);
+  EXPECT_EQ(at<std::uint32_t>(prepare, 0), 20u + 104 + 3 * 24);
+  EXPECT_EQ(at<std::uint32_t>(prepare, 16), 1u);
+  EXPECT_EQ(at<std::uint32_t>(prepare, 88), 5u);
+  EXPECT_EQ(at<std::uint32_t>(prepare, 92), 3u);
+  EXPECT_EQ(at<double>(prepare, 96), 0);
+  for (std::size_t i = 0; i < std::size(corners); ++i) {
+    EXPECT_EQ(at<double>(prepare, 128 + 8 * i), corners[i]) << i;
+  }
+}
+
+TEST(Lines, HaveAConvexBodysVertices) {
+  const PairOfShapes pair{7, 0, 0, sized(TS_CYLINDER, 0.5, 1), triangle};
+  EXPECT_THAT(prepare_request(Format::lines, 3, pair).text,
+              AllOf(HasSubstr(R"("shape":"convex")"),
+                    HasSubstr("\"vertices\":[[0.0,0.0,0.0],[0.30000000000000004,0.0,0.0],"
+                              "[0.0,-1e-300,1.0]]")));
 }
 
 TEST(Lines, HoldDoublesExactly) {

@@ -23,7 +23,7 @@ const ts_candidate& load(const Candidate& candidate) {
 class OwnRespondent : public Respondent {
  public:
   explicit OwnRespondent(const Candidate& candidate) : routine_(load(candidate), candidate.value) {}
-  ~OwnRespondent() override { routine_.release_all_but_of({}); }
+  ~OwnRespondent() override { routine_.release_all(); }
   OwnRespondent(const OwnRespondent&) = delete;
   OwnRespondent& operator=(const OwnRespondent&) = delete;
 
@@ -37,7 +37,7 @@ class OwnRespondent : public Respondent {
     }
     return std::nullopt;
   }
-  void end_session() override { routine_.release_all_but_of({}); }
+  void end_session() override { routine_.release_all(); }
 
  private:
   Routine routine_;

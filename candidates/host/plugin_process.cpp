@@ -68,7 +68,8 @@ PluginProcess::PluginProcess()
       questions_file_(shared_file(sizeof(Questions))),
       exchange_file_(shared_file(sizeof(Exchange))) {
   if (text_ < 0 || fcntl(text_, F_SETFL, O_APPEND) < 0) fail("memfd_create");
-  questions_ = new (map(questions_file_, sizeof(Questions), PROT_READ | PROT_WRITE)) Questions{};
+  // Not cleared: it is large, and most of it is never used.
+  questions_ = new (map(questions_file_, sizeof(Questions), PROT_READ | PROT_WRITE)) Questions;
   exchange_ = new (map(exchange_file_, sizeof(Exchange), PROT_READ | PROT_WRITE)) Exchange{};
   // Each plug-in's process maps its own memory and does not inherit that of others.
   madvise(questions_, sizeof(Questions), MADV_DONTFORK);

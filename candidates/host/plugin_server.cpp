@@ -74,7 +74,8 @@ ts_candidate of_version_3(const CandidateOfVersion3& old) {
   return c;
 }
 
-Description describe(const ts_candidate& c) {
+/// `kinds`: of how many shapes it has heard.
+Description describe(const ts_candidate& c, std::size_t kinds) {
   const std::string name = c.name ? c.name : "";
   if (!is_candidate_name(name)) {
     throw std::runtime_error(std::string("has a candidate whose name is not of ") +
@@ -104,8 +105,8 @@ Description describe(const ts_candidate& c) {
     d.whole = c.parameter->whole != 0;
     d.bare = c.parameter->bare != 0;
   }
-  for (const ts_shape_kind kind : {TS_CYLINDER, TS_PLANE, TS_SPHERE, TS_CAPSULE, TS_BOX}) {
-    d.supports[kind] = c.supports(c.context, kind) != 0;
+  for (std::size_t kind = 0; kind < kinds; ++kind) {
+    d.supports[kind] = c.supports(c.context, static_cast<ts_shape_kind>(kind)) != 0;
   }
   return d;
 }
@@ -118,12 +119,14 @@ LoadedPlugin load(const char* file) {
   if (!entry) throw std::runtime_error("exports no touchstone_plugin");
   const ts_plugin* plugin = entry();
   if (!plugin) throw std::runtime_error("gives no candidates");
-  const bool is_old = plugin->interface_version == 3;
-  if (!is_old && plugin->interface_version != TOUCHSTONE_INTERFACE_VERSION) {
-    throw std::runtime_error("was made for version " + std::to_string(plugin->interface_version) +
+  const int version = plugin->interface_version;
+  if (version < 3 || version > TOUCHSTONE_INTERFACE_VERSION) {
+    throw std::runtime_error("was made for version " + std::to_string(version) +
                              " of candidate.h; this is version " +
                              std::to_string(TOUCHSTONE_INTERFACE_VERSION));
   }
+  const bool is_without_context = version == 3;
+  const std::size_t kinds = version < 5 ? shape_kinds - 1 : shape_kinds;  // without the last one
   if (plugin->count < 1 || !plugin->candidates) throw std::runtime_error("gives no candidates");
   if (plugin->count > max_candidates) {
     throw std::runtime_error("gives " + std::to_string(plugin->count) + " candidates, more than " +
@@ -132,11 +135,11 @@ LoadedPlugin load(const char* file) {
   LoadedPlugin result;
   const auto* const old = reinterpret_cast<const CandidateOfVersion3*>(plugin->candidates);
   for (int i = 0; i < plugin->count; ++i) {
-    result.candidates.push_back(is_old ? of_version_3(old[i]) : plugin->candidates[i]);
-    result.descriptions.push_back(describe(result.candidates.back()));
-    result.descriptions.back().unforked = !is_old && plugin->unforked != 0;
+    result.candidates.push_back(is_without_context ? of_version_3(old[i]) : plugin->candidates[i]);
+    result.descriptions.push_back(describe(result.candidates.back(), kinds));
+    result.descriptions.back().unforked = !is_without_context && plugin->unforked != 0;
   }
-  if (!is_old) result.after_fork = plugin->after_fork;
+  if (!is_without_context) result.after_fork = plugin->after_fork;
   return result;
 }
 

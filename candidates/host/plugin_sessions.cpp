@@ -131,7 +131,7 @@ std::optional<NoAnswer> PluginSessions::begin() {
 std::optional<NoAnswer> PluginSessions::hand_over(std::span<const Asked> asked) {
   if (auto failure = session_ < 0 ? begin() : std::nullopt) return failure;
   for (std::size_t i = 0; i < asked.size(); ++i) {
-    plugin_->questions().slots[i] = question_of(asked[i]);
+    plugin_->questions().put(i, question_of(asked[i]));
   }
   return std::nullopt;
 }

@@ -10,7 +10,7 @@ Routine::Routine(const ts_candidate& candidate, double parameter)
 }
 
 bool Routine::PreparedPair::is_for(const Question& q) const {
-  return same(a, q.a) && same(b, q.b) && threshold == q.threshold;
+  return same(a, q.a) && same(b.get(), q.b) && threshold == q.threshold;
 }
 
 ts_prepared* Routine::prepare(const Question& q) const {
@@ -29,7 +29,7 @@ ts_prepared* Routine::ready(const Question& q) {
     if (ready_.front().prepared) candidate_.release(ready_.front().prepared);
     ready_.erase(ready_.begin());
   }
-  ready_.push_back({q.a, q.b, q.threshold, prepare(q)});
+  ready_.push_back({q.a, OwnedShape(q.b), q.threshold, prepare(q)});
   return ready_.back().prepared;
 }
 
@@ -47,13 +47,22 @@ void Routine::ask(const Question& q, ts_answer& answer, double& model_distance) 
   }
 }
 
-void Routine::release_all_but_of(std::span<const Question> questions) {
+void Routine::release_all_but_of(const Questions& questions, std::uint32_t first,
+                                 std::uint32_t end) {
   std::erase_if(ready_, [&](const PreparedPair& r) {
-    const auto is_its = [&](const Question& q) { return r.is_for(q); };
-    if (std::ranges::any_of(questions, is_its)) return false;
+    for (std::uint32_t i = first; i < end; ++i) {
+      if (r.is_for(questions.get(i))) return false;
+    }
     if (r.prepared) candidate_.release(r.prepared);
     return true;
   });
+}
+
+void Routine::release_all() {
+  for (const PreparedPair& r : ready_) {
+    if (r.prepared) candidate_.release(r.prepared);
+  }
+  ready_.clear();
 }
 
 }  // namespace touchstone

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <cfenv>
-#include <span>
+#include <cstdint>
 #include <vector>
 
 #include "candidates/host/exchange.hpp"
@@ -21,13 +21,15 @@ class Routine {
   /// Fills the answer; TS_UNSUPPORTED where there is no routine for the pair. `model_distance` is
   /// NaN if unknown.
   void ask(const Question& question, ts_answer& answer, double& model_distance);
-  /// Releases the shapes that none of these questions needs.
-  void release_all_but_of(std::span<const Question> questions);
+  /// Releases the shapes that none of these slots needs.
+  void release_all_but_of(const Questions& questions, std::uint32_t first, std::uint32_t end);
+  void release_all();
 
  private:
   /// Two prepared shapes, for one pose after another.
   struct PreparedPair {
-    ts_shape a, b;
+    ts_shape a;
+    OwnedShape b;
     double threshold;
     ts_prepared* prepared;  ///< null if the pair is not supported
 

@@ -169,7 +169,8 @@ class Session {
   const Questions& asked_;
   Exchange& exchange_;
   ts_answer* answer_;
-  std::vector<Question> questions_;
+  std::vector<Question> questions_;  ///< to be timed
+  std::vector<OwnedShape> bodies_;   ///< their bodies B
   std::vector<TimedQuery> kept_;
   std::size_t passes_ = 1;                     ///< passes over kept_ in one timed round
   std::optional<InstructionCounter> counter_;  ///< once something is timed
@@ -214,7 +215,8 @@ void Session::obey(const SessionCommand& command) {
       run_on(command.processor);
       if (command.release) forget_timed();
       for (std::uint32_t i = 0; i < command.count; ++i) {
-        questions_.push_back(asked_.slots[i]);
+        Question& question = questions_.emplace_back(asked_.get(i));
+        question.b = bodies_.emplace_back(question.b).get();
       }
       return;
     case SessionCommand::warm_up:
@@ -229,12 +231,12 @@ void Session::obey(const SessionCommand& command) {
 }
 
 void Session::answer(const SessionCommand& command) {
-  if (command.forget) routine_.release_all_but_of({});
+  if (command.forget) routine_.release_all();
   LapClock clock;
   for (std::uint32_t i = 0; i < command.count; ++i) {
     answer(i);
     // At once, so that a crash in release falls into the time of its own configuration.
-    if (command.release) routine_.release_all_but_of({asked_.slots + i + 1, command.count - i - 1});
+    if (command.release) routine_.release_all_but_of(asked_, i + 1, command.count);
     exchange_.slots[i].seconds = clock.lap();
     exchange_.slots[i].seal = seal_of(exchange_.slots[i], command.ticket);
     exchange_.progress = progress_of(command.ticket, i + 1);
@@ -243,8 +245,7 @@ void Session::answer(const SessionCommand& command) {
 
 void Session::answer(std::uint32_t i) {
   Slot& slot = exchange_.slots[i];
-  const Question question = asked_.slots[i];
-  routine_.ask(question, *answer_, slot.model_distance);
+  routine_.ask(asked_.get(i), *answer_, slot.model_distance);
   slot.answer = *answer_;
 }
 
@@ -252,6 +253,7 @@ void Session::forget_timed() {
   for (const TimedQuery& k : kept_) routine_.candidate().release(k.prepared);
   kept_.clear();
   questions_.clear();
+  bodies_.clear();
 }
 
 void Session::warm_up() {

@@ -51,11 +51,12 @@ bool is_simple(const std::string& command) {
   return !has_operator && !has_assignment;
 }
 
-/// An upper bound of a shape's extent from its centre; that of a plane's displacement.
+/// An upper bound of a shape's extent from its origin; that of a plane's displacement.
 double extent(const ts_shape& shape) {
-  double sum = 0;
+  double sum = 0, largest = 0;
   for (const double size : shape.size) sum += std::abs(size);
-  return sum;
+  for (const double x : coordinates_of(shape)) largest = std::max(largest, std::abs(x));
+  return sum + 3 * largest;
 }
 
 /// The poses with body A so far from B that every broad phase tells them apart: along +x, or along
@@ -206,11 +207,16 @@ void SpokenCommand::release(std::uint32_t handle) {
 
 void SpokenCommand::warm_up(double parameter) {
   const ts_candidate spoken = candidate();
-  for (const ts_shape_kind kind : {TS_SPHERE, TS_BOX, TS_CYLINDER, TS_CAPSULE, TS_PLANE}) {
+  static constexpr double corners[] = {-1, -1, 0, 1, -1, 0, 0, 1, 0};
+  static constexpr int faces[] = {3, 0, 1, 2, 3, 0, 2, 1};
+  constexpr ts_shape triangle{TS_CONVEX, {}, corners, faces, 3, 2};
+  for (const ts_shape_kind kind :
+       {TS_SPHERE, TS_BOX, TS_CYLINDER, TS_CAPSULE, TS_PLANE, TS_CONVEX}) {
     if (!description_.supports[kind]) continue;
-    const ts_shape a{TS_CYLINDER, {0.5, 0.5}};
-    const ts_shape b =
-        kind == TS_PLANE ? ts_shape{kind, {0, 0, 1, 0}} : ts_shape{kind, {0.5, 0.5, 0.5}};
+    const ts_shape a = sized(TS_CYLINDER, 0.5, 0.5);
+    const ts_shape b = kind == TS_PLANE    ? sized(kind, 0, 0, 1)
+                       : kind == TS_CONVEX ? triangle
+                                           : sized(kind, 0.5, 0.5, 0.5);
     const ts_pose pose_a{{0, 0.1, 0.4}, {0.8, 0.6, 0, 0}}, pose_b{{0, 0, 0}, {1, 0, 0, 0}};
     ts_prepared* const prepared = prepare(a, b, 0, parameter);
     if (!prepared) return;

@@ -14,7 +14,6 @@ import time
 FORMAT = sys.argv[1]
 DEED = sys.argv[2] if len(sys.argv) > 2 else "none"
 INPUT, OUTPUT = os.fdopen(0, "rb"), os.fdopen(os.dup(1), "wb")
-KINDS = {"cylinder": 0, "plane": 1, "sphere": 2, "capsule": 3, "box": 4}
 MARK = 666.0
 prepared = {}
 asked = 0
@@ -99,6 +98,10 @@ def tamper(data, count):
     return bytes(data)
 
 
+def numbers_in(value):
+    return [x for each in value for x in numbers_in(each)] if isinstance(value, list) else [value]
+
+
 def answer_of(handle, pose_a, pose_b):
     total = -sum(pose_a) - sum(pose_b) - sum(prepared[handle])
     point = list(pose_a[:3]), [0.0, 0.0, 1.0], -total
@@ -124,8 +127,7 @@ def serve_lines():
         if op == "prepare":
             for e in request["entries"]:
                 sizes = [x for shape in (e["a"], e["b"]) for value in shape.values()
-                         if not isinstance(value, str)
-                         for x in (value if isinstance(value, list) else [value])]
+                         if not isinstance(value, str) for x in numbers_in(value)]
                 prepared[e["handle"]] = sizes + [e["threshold"], e["parameter"]]
             reply = {"supported": [True] * len(request["entries"])}
         elif op == "release":
@@ -158,10 +160,14 @@ def serve_frames():
         length, op, ticket, count, passes = struct.unpack("<IIQII", take(24))
         data = take(length - 20)
         if op == 1:
+            after = 104 * count
             for i in range(count):
                 handle, _, threshold, parameter = struct.unpack_from("<IIdd", data, 104 * i)
                 sizes = struct.unpack_from("<4d", data, 104 * i + 32) + struct.unpack_from(
                     "<4d", data, 104 * i + 72)
+                (vertices,) = struct.unpack_from("<I", data, 104 * i + 68)
+                sizes += struct.unpack_from(f"<{3 * vertices}d", data, after)
+                after += 24 * vertices
                 prepared[handle] = list(sizes) + [threshold, parameter]
             reply = struct.pack("<" + "I" * count, *([1] * count))
         elif op == 4:
@@ -198,7 +204,7 @@ def main():
     assert json.loads(line)["touchstone"] == 1
     hello = {"touchstone": 1, "name": "told", "version": "0.1", "settings": "for tests",
              "precision": "double", "runs": "script", "format": FORMAT,
-             "pairs": ["cylinder-sphere", "cylinder-box"],
+             "pairs": ["cylinder-sphere", "cylinder-box", "cylinder-convex"],
              "parameter": {"meaning": "number", "min": 0, "max": 9, "usual": 2}}
     if DEED.startswith("hello "):
         hello |= json.loads(DEED[len("hello "):])

@@ -7,6 +7,7 @@
 
 #include "candidates/candidates.hpp"
 #include "candidates/host/candidate_process.hpp"
+#include "oracle/hull.hpp"
 
 namespace touchstone {
 
@@ -30,6 +31,11 @@ struct PlainContact {
 inline std::vector<PlainContact> plain_contacts() {
   const Cylinder a(0.5, 1);
   const Vec3 up(0, 0, 1);
+  // A box whose origin is elsewhere.
+  std::vector<Vec3> corners;
+  for (int i = 0; i < 8; ++i) corners.emplace_back(i & 1 ? 5 : 1, i & 2 ? 3 : -1, i & 4 ? -1 : -3);
+  const Convex hull = oracle::convex_hull(corners);
+  const Pose of_hull({-3, -1, 2}, upright);
   return {
       {"standing on a plane", {a, Pose({3, 2, 2.99}, upright), Plane(up, 2), Pose()}, -0.01, up},
       {"lying on a posed plane",
@@ -57,6 +63,8 @@ inline std::vector<PlainContact> plain_contacts() {
        -0.05,
        up},
       {"lying on a box", {a, Pose({0.2, 0.1, 1.45}, along_x), Box({2, 2, 1}), Pose()}, -0.05, up},
+      {"standing on a hull", {a, Pose({0.2, 0.1, 1.95}, upright), hull, of_hull}, -0.05, up},
+      {"lying on a hull", {a, Pose({0.2, 0.1, 1.45}, along_x), hull, of_hull}, -0.05, up},
   };
 }
 

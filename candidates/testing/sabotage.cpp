@@ -9,7 +9,7 @@
 // narrow a ridge is not met by chance. stalling never answers where A's x is negative, and
 // takes ten milliseconds where it is above 1. hiccuping never answers the first question of all its
 // sessions, whatever that is. counting answers with the number of pairs prepared and the number not
-// yet released.
+// yet released. weighing answers with the numbers of a convex body, each times its place.
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -228,6 +228,28 @@ void release_counted(ts_prepared* prepared) {
   delete prepared;
 }
 
+// weighing
+
+struct Weighed {
+  double sum = 0;
+};
+ts_prepared* prepare_weighing(void*, const ts_shape*, const ts_shape* b, double, double) {
+  double sum = 0;
+  int place = 0;
+  for (int i = 0; i < 3 * b->vertex_count; ++i) sum += ++place * b->vertices[i];
+  const int* next = b->faces;
+  for (int i = 0; i < b->face_count; ++i) {
+    for (const int* const end = next + 1 + *next; next < end; ++next) sum += ++place * *next;
+  }
+  return reinterpret_cast<ts_prepared*>(new Weighed{sum});
+}
+void query_weighing(ts_prepared* prepared, const ts_pose*, const ts_pose*, const double*,
+                    ts_answer* answer) {
+  behave(*answer);
+  answer->signed_distance = reinterpret_cast<const Weighed*>(prepared)->sum;
+}
+void release_weighing(ts_prepared* p) { delete reinterpret_cast<Weighed*>(p); }
+
 const ts_candidate candidates[] = {
     {"misdeed", "1", "does one deed", nullptr, &which, supports, prepare, query, release, nullptr,
      nullptr},
@@ -246,8 +268,10 @@ const ts_candidate candidates[] = {
     {"stalling", "1", "is slow or endless in places", nullptr, nullptr, supports, prepare,
      query_stalling, release, nullptr, nullptr},
     {"hiccuping", "1", "is endless once", nullptr, nullptr, supports, prepare, query_hiccuping,
-     release, nullptr, nullptr}};
-const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 9, candidates, nullptr, 0};
+     release, nullptr, nullptr},
+    {"weighing", "1", "answers with a convex body's numbers", nullptr, nullptr, supports,
+     prepare_weighing, query_weighing, release_weighing, nullptr, nullptr}};
+const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 10, candidates, nullptr, 0};
 
 }  // namespace
 
