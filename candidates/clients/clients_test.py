@@ -43,7 +43,7 @@ class Clients(unittest.TestCase):
         self.assertEqual(child.hello, {
             "touchstone": 1, "name": "echo", "version": "1", "settings": "none",
             "precision": "double", "runs": "script", "format": child.hello["format"],
-            "pairs": ["cylinder-plane", "cylinder-box", "cylinder-cylinder"],
+            "pairs": ["cylinder-plane", "cylinder-box", "cylinder-cylinder", "cylinder-convex"],
             "parameter": {"meaning": "number", "min": 0, "max": 9, "usual": 3, "whole": True},
             "models": "nothing at all"})
 
@@ -73,6 +73,23 @@ class Clients(unittest.TestCase):
         points[0] = (math.nan, math.inf, -math.inf, 0.36, 0.48, -0.8, -0.0)
         right = Answer("contact", 0.1, (0.5, -0.0, 0.4), tuple(points), 0.7)
         self.assertEqual(answer.bits(), right.bits())
+
+    @every_client
+    def test_every_convex_body_has_its_vertices(self, child):
+        triangle = {"shape": "convex", "vertices": [[1, 2, 3], [4, 5, 6], [-0.0, 5e-324, 1 / 3]]}
+        tetrahedron = {"shape": "convex",
+                       "vertices": [[0.1, 0, 0], [0, 0.2, 0], [0, 0, 0.3], [-1, -1, -1]]}
+        bodies = [triangle, BOX, tetrahedron, triangle]
+        self.assertEqual(child.prepare([(i, CYLINDER, b, 0, 0) for i, b in enumerate(bodies)]),
+                         [True] * len(bodies))
+        answers = child.query([(i, pose(0), pose(0), None) for i in range(len(bodies))])
+        for answer, body in zip(answers, bodies):
+            # What was prepared: the cylinder's two sizes, and then B's.
+            given = [point[6] for point in answer.points[2:]]
+            sizes = [x for vertex in body.get("vertices", ()) for x in vertex] or BOX["half_extents"]
+            right = (sizes + [0, 0, 0.1, 1 / 3])[:len(given)]
+            self.assertEqual(struct.pack(f"<{len(right)}d", *given[:len(right)]),
+                             struct.pack(f"<{len(right)}d", *right))
 
     @every_client
     def test_an_absent_hint_is_absent(self, child):
@@ -153,6 +170,8 @@ class Examples(unittest.TestCase):
         plane = {"shape": "plane", "normal": [0, 0, 1], "displacement": 0.5}
         box = {"shape": "box", "half_extents": [1, 1, 1]}
         capsule = {"shape": "capsule", "radius": 0.25, "half_length": 1}
+        roof = {"shape": "convex",
+                "vertices": [[-1, -2, 0], [-1, 2, 0], [1, -2, 0], [1, 2, 0], [0, -2, 1], [0, 2, 1]]}
         lying = (half, half, 0, 0)
         cases = [
             (sphere, pose(0), pose(0.7), -0.05, (-1, 0, 0)),
@@ -168,6 +187,9 @@ class Examples(unittest.TestCase):
             (box, pose(0, 0, 1.45, lying), pose(0), -0.05, (0, 0, 1)),
             (box, pose(0, 0, 2.05), pose(0), None, None),
             (capsule, pose(0), pose(-0.7), -0.05, (1, 0, 0)),
+            (roof, pose(0, 0, 1.45, lying), pose(0), -0.05, (0, 0, 1)),
+            (roof, pose(0.8, 0, 0.8, lying), pose(0), 0.6 * half - 0.5, (half, 0, half)),
+            (roof, pose(0.9, 0, 0.9, lying), pose(0), None, None),
         ]
         for program, script in ((sys.executable, "example.py"), ("node", "example.mjs")):
             with Child([program, str(HERE / script)]) as child:

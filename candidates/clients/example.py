@@ -5,7 +5,8 @@ touchstone --candidate-command "python3 candidates/clients/example.py" report --
 
 from math import copysign, hypot
 
-from touchstone_candidate import Box, Candidate, Capsule, Contact, Cylinder, Plane, Point, run
+from touchstone_candidate import (Box, Candidate, Capsule, Contact, Convex, Cylinder, Plane, Point,
+                                  run)
 
 
 def add(u, v, scale=1.0):
@@ -31,6 +32,8 @@ def support(shape, pose, direction):
             p = scale * x, scale * y, copysign(half_length, z)
         case Capsule(radius, half_length):
             p = add((0, 0, copysign(half_length, z)), d, radius / hypot(*d))
+        case Convex(vertices):
+            p = max(vertices, key=lambda v: dot(v, d))
         case _:
             p = add((0, 0, 0), d, shape.radius / hypot(*d))
     return add(pose.position, pose.rotate(p))
@@ -47,7 +50,7 @@ class Example(Candidate):
     name, version = "example-gjk-epa", "1.0"
     settings = "one hull is grown until a face holds to 1e-9; one point, halfway between the bodies"
     pairs = ("cylinder-plane", "cylinder-sphere", "cylinder-capsule", "cylinder-cylinder",
-             "cylinder-box")
+             "cylinder-box", "cylinder-convex")
 
     def prepare(self, a, b, threshold, parameter):
         return a, b, threshold

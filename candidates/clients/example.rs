@@ -6,7 +6,9 @@
 //! touchstone --load ./my_engine.so report --pair cylinder-plane
 use std::ffi::{c_char, c_double, c_int, c_void};
 
-#[repr(C)] #[derive(Clone, Copy)] pub struct Shape { kind: c_int, size: [c_double; 4] } // 0 cylinder, 1 plane, 2 sphere
+#[repr(C)] #[derive(Clone, Copy)] pub struct Shape { // 0 cylinder, 1 plane, 2 sphere; the others are of convex bodies
+    kind: c_int, size: [c_double; 4], vertices: *const c_double, faces: *const c_int, vertex_count: c_int, face_count: c_int,
+}
 #[repr(C)] pub struct Pose { position: [c_double; 3], orientation: [c_double; 4] } // unit quaternion w, x, y, z
 #[repr(C)] #[derive(Clone, Copy)] pub struct Point { position: [c_double; 3], normal: [c_double; 3], depth: c_double }
 #[repr(C)] pub struct Answer { status: c_int, normal: [c_double; 3], signed_distance: c_double, point_count: c_int, points: [Point; 16] }
@@ -73,5 +75,5 @@ static CANDIDATE: Candidate = Candidate {
     name: b"example-rust\0".as_ptr().cast(), version: b"1.0\0".as_ptr().cast(), settings: b"closed form, double precision; points halfway between the bodies\0".as_ptr().cast(),
     models: std::ptr::null(), parameter: std::ptr::null(), supports, prepare, query, release, model_distance: None, context: std::ptr::null_mut(),
 };
-static PLUGIN: Plugin = Plugin { interface_version: 4, count: 1, candidates: &CANDIDATE, after_fork: None, unforked: 0 };
+static PLUGIN: Plugin = Plugin { interface_version: 5, count: 1, candidates: &CANDIDATE, after_fork: None, unforked: 0 };
 #[no_mangle] pub extern "C" fn touchstone_plugin() -> *const Plugin { &PLUGIN }

@@ -17,15 +17,16 @@
 // frame, vectors are arrays, orientations are unit quaternions w, x, y, z. Shapes are as in a
 // configuration:
 // { shape: 'cylinder' | 'capsule', radius, half_length }, { shape: 'sphere', radius },
-// { shape: 'box', half_extents }, { shape: 'plane', normal, displacement }.
+// { shape: 'box', half_extents }, { shape: 'plane', normal, displacement }, { shape: 'convex', vertices },
+// the hull of its vertices, each of them a corner.
 //
 // A candidate has these members; only `name` to `pairs` and `query` are required.
 //
 //   name        as on the command line: printable ASCII without colon, comma, slash or space, not "-…"
 //   version     of the engine
 //   settings    how it is called: algorithm, margin, tolerance, where its contact points lie
-//   pairs       of cylinder-plane, cylinder-sphere, cylinder-capsule, cylinder-cylinder and
-//               cylinder-box
+//   pairs       of cylinder-plane, cylinder-sphere, cylinder-capsule, cylinder-cylinder,
+//               cylinder-box and cylinder-convex
 //   precision   'double' (default) or 'float'
 //   runs        'script' (default), 'wasm' or 'native'
 //   format      'frames' (default), or 'lines': requests and answers as text, for debugging
@@ -47,7 +48,7 @@ import os from 'node:os';
 
 const MAX_POINTS = 16;
 const HEADER = 24;
-const SIZES = { prepare: 104, question: 144, answer: 944, handle: 4 };
+const SIZES = { prepare: 104, question: 144, answer: 944, handle: 4, vertex: 24 };
 const PREPARE = 1, QUERY = 2, TIME = 3, RELEASE = 4;
 const STATUSES = { contact: 0, none: 1, unsupported: 2, failed: 3 };
 
@@ -189,9 +190,10 @@ function answerFrames(engine) {
     let answer;  // with the header's place before it
     if (operation === PREPARE) {
       answer = new DataView(new ArrayBuffer(HEADER + 4 * count));
+      const vertices = verticesFrom(entries, SIZES.prepare * count);
       each(SIZES.prepare, (at) => engine.prepare(entries.getUint32(at, true),
-        shapeAt(entries, at + 24), shapeAt(entries, at + 64), entries.getFloat64(at + 8, true),
-        entries.getFloat64(at + 16, true)))
+        shapeAt(entries, at + 24, vertices), shapeAt(entries, at + 64, vertices),
+        entries.getFloat64(at + 8, true), entries.getFloat64(at + 16, true)))
         .forEach((supported, i) => answer.setUint32(HEADER + 4 * i, supported ? 1 : 0, true));
     } else if (operation === RELEASE) {
       answer = new DataView(new ArrayBuffer(HEADER));
@@ -221,7 +223,12 @@ function numbersAt(view, at, count) {
   return numbers;
 }
 
-function shapeAt(view, at) {
+function* verticesFrom(view, at) {
+  for (;; at += SIZES.vertex) yield numbersAt(view, at, 3);
+}
+
+// `vertices` gives those of the convex bodies in turn.
+function shapeAt(view, at, vertices) {
   const size = numbersAt(view, at + 8, 4);
   switch (view.getUint32(at, true)) {
     case 0: return { shape: 'cylinder', radius: size[0], half_length: size[1] };
@@ -229,6 +236,8 @@ function shapeAt(view, at) {
     case 2: return { shape: 'sphere', radius: size[0] };
     case 3: return { shape: 'capsule', radius: size[0], half_length: size[1] };
     case 4: return { shape: 'box', half_extents: size.slice(0, 3) };
+    case 5: return { shape: 'convex',
+      vertices: Array.from({ length: view.getUint32(at + 4, true) }, () => vertices.next().value) };
     default: throw new Error('no such kind of shape');
   }
 }

@@ -28,7 +28,8 @@ import struct
 import sys
 import time
 import traceback
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from itertools import islice
 from typing import Any, NamedTuple, TypeAlias
 
 Vector: TypeAlias = tuple[float, float, float]
@@ -64,7 +65,13 @@ class Box(NamedTuple):
     half_extents: Vector
 
 
-Shape: TypeAlias = Cylinder | Plane | Sphere | Capsule | Box
+class Convex(NamedTuple):
+    """The hull of its vertices, each of them a corner; flat where they lie in one plane."""
+
+    vertices: tuple[Vector, ...]
+
+
+Shape: TypeAlias = Cylinder | Plane | Sphere | Capsule | Box | Convex
 
 
 class Pose(NamedTuple):
@@ -116,7 +123,8 @@ class Candidate:
     settings: str
     """How the engine is called: algorithm, margin, tolerance, where its contact points lie."""
     pairs: Sequence[str]
-    """Of cylinder-plane, cylinder-sphere, cylinder-capsule, cylinder-cylinder, cylinder-box."""
+    """Of cylinder-plane, cylinder-sphere, cylinder-capsule, cylinder-cylinder, cylinder-box,
+    cylinder-convex."""
 
     precision = "double"
     """Or "float"."""
@@ -261,6 +269,7 @@ _SHAPES = struct.Struct("<II2d" + 2 * "II4d")
 _QUESTION = struct.Struct("<II17d")
 _ANSWER = struct.Struct("<II5d")
 _POINT = struct.Struct("<7d")
+_VERTEX = struct.Struct("<3d")
 _HANDLE = struct.Struct("<I")
 _PREPARE, _QUERY, _TIME, _RELEASE = 1, 2, 3, 4
 _STATUSES = {"contact": 0, "none": 1, "unsupported": 2, "failed": 3}
@@ -272,10 +281,12 @@ def _answer_frames(engine: _Engine) -> None:
         if len(entries := _requests.read(size - 20)) < size - 20:
             return
         if operation == _PREPARE:
+            fixed = count * _SHAPES.size
+            vertices = _VERTEX.iter_unpack(entries[fixed:])
             answer = b"".join(
-                _HANDLE.pack(engine.prepare(fields[0], _shape(fields[4:10]), _shape(fields[10:]),
-                                            fields[2], fields[3]))
-                for fields in _SHAPES.iter_unpack(entries))
+                _HANDLE.pack(engine.prepare(fields[0], _shape(fields[4:10], vertices),
+                                            _shape(fields[10:], vertices), fields[2], fields[3]))
+                for fields in _SHAPES.iter_unpack(entries[:fixed]))
         elif operation == _RELEASE:
             for (handle,) in _HANDLE.iter_unpack(entries):
                 engine.release(handle)
@@ -292,11 +303,13 @@ def _answer_frames(engine: _Engine) -> None:
         _answers.flush()
 
 
-def _shape(fields: Sequence[Any]) -> Any:
-    kind, _, *size = fields
+def _shape(fields: Sequence[Any], vertices: Iterator[Vector]) -> Any:
+    """`vertices` gives those of the convex bodies in turn."""
+    kind, count, *size = fields
     return [lambda: Cylinder(size[0], size[1]), lambda: Plane(tuple(size[:3]), size[3]),
             lambda: Sphere(size[0]), lambda: Capsule(size[0], size[1]),
-            lambda: Box(tuple(size[:3]))][kind]()
+            lambda: Box(tuple(size[:3])),
+            lambda: Convex(tuple(islice(vertices, count)))][kind]()
 
 
 def _pack(answer: _Answer) -> bytes:
@@ -347,6 +360,8 @@ def _read_pose(pose: dict[str, Any]) -> Pose:
 
 
 def _read_shape(shape: dict[str, Any]) -> Any:
+    if shape["shape"] == "convex":
+        return Convex(tuple(_floats(vertex) for vertex in shape["vertices"]))
     kinds = {"cylinder": Cylinder, "plane": Plane, "sphere": Sphere, "capsule": Capsule, "box": Box}
     kind = kinds[shape["shape"]]
     sizes = (shape[field] for field in kind._fields)

@@ -18,14 +18,14 @@ for (const [owner, name] of [[JSON, 'parse'], [DataView.prototype, 'getFloat64']
 
 run({
   name: 'echo', version: '1', settings: 'none', format: process.argv[2],
-  pairs: ['cylinder-plane', 'cylinder-box', 'cylinder-cylinder'],
+  pairs: ['cylinder-plane', 'cylinder-box', 'cylinder-cylinder', 'cylinder-convex'],
   parameter: { meaning: 'number', min: 0, max: 9, usual: 3, whole: true },
   models: 'nothing at all',
 
   prepare(a, b, threshold, parameter) {
     if (b.shape === 'sphere') return null;
     if (b.shape === 'capsule') throw new Error('no capsules today');
-    const sizes = b.half_extents ?? [...b.normal, b.displacement];
+    const sizes = b.vertices?.flat() ?? b.half_extents ?? [...b.normal, b.displacement];
     return [a.radius, a.half_length, ...sizes, threshold, parameter];
   },
 

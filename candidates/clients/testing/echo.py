@@ -9,7 +9,7 @@ from pathlib import Path
 
 sys.path.append(str(Path(__file__).resolve().parents[1]))
 import touchstone_candidate
-from touchstone_candidate import Candidate, Capsule, Contact, Point, Pose, Sphere, run
+from touchstone_candidate import Candidate, Capsule, Contact, Convex, Point, Pose, Sphere, run
 
 print("this is no hello")
 
@@ -30,7 +30,7 @@ time.perf_counter_ns = lambda: clock
 
 class Echo(Candidate):
     name, version, settings = "echo", "1", "none"
-    pairs = ("cylinder-plane", "cylinder-box", "cylinder-cylinder")
+    pairs = ("cylinder-plane", "cylinder-box", "cylinder-cylinder", "cylinder-convex")
     format = sys.argv[1]
     parameter = {"meaning": "number", "min": 0, "max": 9, "usual": 3, "whole": True}
     models = "nothing at all"
@@ -40,7 +40,10 @@ class Echo(Candidate):
             return None
         if isinstance(b, Capsule):
             raise ValueError("no capsules today")
-        sizes = [*b.half_extents] if hasattr(b, "half_extents") else [*b.normal, b.displacement]
+        if isinstance(b, Convex):
+            sizes = [x for vertex in b.vertices for x in vertex]
+        else:
+            sizes = [*b.half_extents] if hasattr(b, "half_extents") else [*b.normal, b.displacement]
         return [a.radius, a.half_length, *sizes, threshold, parameter]
 
     def query(self, prepared, pose_a, pose_b, hint):

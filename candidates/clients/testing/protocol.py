@@ -9,7 +9,7 @@ import subprocess
 import tempfile
 from typing import Any, NamedTuple
 
-SHAPES = ("cylinder", "plane", "sphere", "capsule", "box")
+SHAPES = ("cylinder", "plane", "sphere", "capsule", "box", "convex")
 STATUSES = ("contact", "none", "unsupported", "failed")
 PREPARE, QUERY, TIME, RELEASE = 1, 2, 3, 4
 OPERATIONS = {PREPARE: "prepare", QUERY: "query", TIME: "time", RELEASE: "release"}
@@ -75,7 +75,9 @@ class Child:
                 for handle, a, b, threshold, parameter in entries])["supported"]
         packed = [struct.pack("<II2d", handle, 0, threshold, parameter)
                   + pack_shape(a) + pack_shape(b) for handle, a, b, threshold, parameter in entries]
-        return [flag == 1 for (flag,) in struct.iter_unpack("<I", self.ask_frame(PREPARE, packed))]
+        vertices = b"".join(struct.pack("<3d", *vertex) for _, _, b, _, _ in entries
+                            for vertex in b.get("vertices", ()))
+        return [flag == 1 for (flag,) in struct.iter_unpack("<I", self.ask_frame(PREPARE, packed, rest=vertices))]
 
     def query(self, questions: list[tuple[int, dict, dict, tuple | None]]) -> list[Answer]:
         """Questions: handle, poses, hint."""
@@ -111,9 +113,10 @@ class Child:
         assert answer["ticket"] == self.ticket
         return answer
 
-    def ask_frame(self, operation: int, entries: list[bytes], passes: int = 0) -> bytes:
+    def ask_frame(self, operation: int, entries: list[bytes], passes: int = 0,
+                  rest: bytes = b"") -> bytes:
         self.ticket += 2**40
-        body = b"".join(entries)
+        body = b"".join(entries) + rest
         header = (20 + len(body), operation, self.ticket, len(entries), passes)
         self.send(struct.pack("<IIQII", *header) + body)
         size, *rest = struct.unpack("<IIQII", self.receive(24))
@@ -140,7 +143,8 @@ class Child:
 def pack_shape(shape: dict) -> bytes:
     size = [*shape.get("normal", ()), *shape.get("half_extents", ()),
             *(shape[key] for key in ("radius", "half_length", "displacement") if key in shape)]
-    return struct.pack("<II4d", SHAPES.index(shape["shape"]), 0, *size, *[0.0] * (4 - len(size)))
+    return struct.pack("<II4d", SHAPES.index(shape["shape"]), len(shape.get("vertices", ())), *size,
+                       *[0.0] * (4 - len(size)))
 
 
 def pack(questions: list[tuple[int, dict, dict, tuple | None]]) -> list[bytes]:
