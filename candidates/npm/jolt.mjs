@@ -8,10 +8,12 @@
 //              of 1 µs, and the manifold of its contact listener is taken; then they are destroyed,
 //              so that nothing is left of the pair. All of it is timed.
 // Shapes       CylinderShape and CapsuleShape along y, turned to ours; SphereShape, BoxShape,
-//              PlaneShape.
+//              PlaneShape; ConvexHullShape of a convex body's vertices, with Jolt's tolerance of
+//              1 mm, by which it may leave out some, and none of smaller bodies than that.
 // Margin       jolt, jolt-world: Jolt's convex radius of 0.05 m on cylinder and box, at most half
-//              of the smallest half extent (Jolt refuses more than the whole one). It is taken from
-//              the inside: faces stay where they are, edges are rounded.
+//              of the smallest half extent (Jolt refuses more than the whole one), and on convex
+//              bodies, where Jolt makes it as small as it must be. It is taken from the inside:
+//              faces stay where they are, edges are rounded.
 //              jolt-margin-0: convex radius 0. jolt-margin:M: M metres, at most the smallest half
 //              extent.
 // Conventions  mPenetrationAxis, and a manifold's normal, moves shape 2 out; which body is the
@@ -69,6 +71,7 @@ function makeShape(shape, convexRadius) {
       Jolt.destroy(halfExtents);
       return made;
     }
+    case 'convex': return makeHull(shape.vertices, convexRadius);
     default: {
       const normal = new Jolt.Vec3(...shape.normal);
       const plane = new Jolt.Plane(normal, -shape.displacement);
@@ -78,6 +81,31 @@ function makeShape(shape, convexRadius) {
       return made;
     }
   }
+}
+
+/** A shape that is ours until it is released; null if Jolt makes none. */
+function makeHull(vertices, convexRadius) {
+  const settings = new Jolt.ConvexHullShapeSettings(), point = new Jolt.Vec3();
+  for (const vertex of vertices) {
+    point.Set(...vertex);
+    settings.mPoints.push_back(point);
+  }
+  settings.mMaxConvexRadius = convexRadius;
+  const made = settings.Create();
+  const shape = made.IsValid() ? made.Get() : null;
+  shape?.AddRef();
+  Jolt.destroy(point);
+  Jolt.destroy(settings);
+  return shape;
+}
+
+/** The shapes of a pair, given to `take`, which keeps them; null if one of them cannot be made. */
+function withShapes(a, b, convexRadiusOf, take) {
+  const [shapeA, shapeB] = [a, b].map((shape) => makeShape(shape, convexRadiusOf(shape)));
+  if (!shapeB) return null;
+  const taken = take(shapeA, shapeB);
+  if (b.shape === 'convex') shapeB.Release();
+  return taken;
 }
 
 /** Sets `position` and `rotation`. */
@@ -109,13 +137,14 @@ const byQuery = {
     'one point, midway between those on both bodies',
 
   prepare(a, b, threshold, parameter) {
-    const [shapeA, shapeB] = [a, b].map((shape) => makeShape(shape, margin.of(shape, parameter)));
-    shapeA.AddRef();
-    const body = new Jolt.TransformedShape();
-    body.mShape = shapeB;
-    const query = new Jolt.CollideShapeSettings();
-    query.mMaxSeparationDistance = threshold;
-    return { shapeA, body, query, turned: needsTurn(b) };
+    return withShapes(a, b, (shape) => margin.of(shape, parameter), (shapeA, shapeB) => {
+      shapeA.AddRef();
+      const body = new Jolt.TransformedShape();
+      body.mShape = shapeB;
+      const query = new Jolt.CollideShapeSettings();
+      query.mMaxSeparationDistance = threshold;
+      return { shapeA, body, query, turned: needsTurn(b) };
+    });
   },
 
   query({ shapeA, body, query, turned }, poseA, poseB) {
@@ -173,11 +202,11 @@ const byWorld = {
     'midway between those on both bodies',
 
   prepare(a, b, threshold) {
-    const [shapeA, shapeB] = [a, b].map((shape) => makeShape(shape, margin.of(shape)));
     const body = (shape, motion) =>
       new Jolt.BodyCreationSettings(shape, zero, upright, motion, LAYER);
-    return { a: body(shapeA, Jolt.EMotionType_Dynamic), b: body(shapeB, Jolt.EMotionType_Static),
-      threshold, turned: needsTurn(b) };
+    return withShapes(a, b, (shape) => margin.of(shape), (shapeA, shapeB) => ({
+      a: body(shapeA, Jolt.EMotionType_Dynamic), b: body(shapeB, Jolt.EMotionType_Static),
+      threshold, turned: needsTurn(b) }));
   },
 
   query({ a, b, threshold, turned }, poseA, poseB) {

@@ -8,14 +8,15 @@
 // Points       mujoco3: several of flat features, as by default (multiccd). mujoco3-single:
 //              multiccd off. Midway between the two surfaces.
 // Shapes       Half lengths, a capsule's without its round ends. A plane is solid below its frame's
-//              xy-plane.
+//              xy-plane. A convex body is a mesh asset of its vertices, whose hull MuJoCo makes and
+//              keeps in single precision; of vertices in one plane it makes none.
 // Conventions  A contact frame's x axis points from geom1 to geom2; reversed if geom1 is the
 //              cylinder.
 // Threshold    The cylinder's margin.
 // Traps        Contacts are copies: delete them. The plane has to hang from a static body other
 //              than the world, whose geoms mj_kinematics leaves where they were. An MjData serves
-//              all models with the same kinds of geoms, for its arena is large; mj_kinematics and
-//              mj_collision write whatever is read of it.
+//              all models with the same kinds of geoms, but for meshes, for its arena is large;
+//              mj_kinematics and mj_collision write whatever is read of it.
 //
 // node mujoco3.mjs [single]
 import { run } from '../clients/touchstone_candidate.mjs';
@@ -26,6 +27,7 @@ const mujoco = await start();
 const single = process.argv[2] === 'single';
 
 function geomXml(shape, margin) {
+  if (shape.shape === 'convex') return `<geom type='mesh' mesh='b' margin='${margin}'/>`;
   const size = { plane: [0, 0, 1], sphere: [shape.radius], box: shape.half_extents }[shape.shape] ??
     [shape.radius, shape.half_length];
   return `<geom type='${shape.shape}' size='${size.join(' ')}' margin='${margin}'/>`;
@@ -34,7 +36,9 @@ function geomXml(shape, margin) {
 /** A free cylinder and B, which is moved by its body. */
 function makeModel(a, b, threshold) {
   const flag = single ? "<flag multiccd='disable'/>" : '';
-  return mujoco.MjModel.from_xml_string(`<mujoco><option>${flag}</option><worldbody>
+  const mesh = b.shape === 'convex' ?
+    `<asset><mesh name='b' vertex='${b.vertices.flat().join(' ')}'/></asset>` : '';
+  return mujoco.MjModel.from_xml_string(`<mujoco><option>${flag}</option>${mesh}<worldbody>
     <body mocap='${b.shape !== 'plane'}'>${geomXml(b, 0)}</body>
     <body><freejoint/><inertial pos='0 0 0' mass='1' diaginertia='1 1 1'/>
       ${geomXml(a, threshold)}</body></worldbody></mujoco>`);
@@ -43,7 +47,8 @@ function makeModel(a, b, threshold) {
 const datas = new Map();  // by the kind of B
 
 /** The data for models with this kind of B, made of one that lives as long. */
-function dataFor(a, b) {
+function dataFor(a, b, model) {
+  if (b.shape === 'convex') return new mujoco.MjData(model);
   if (!datas.has(b.shape)) datas.set(b.shape, new mujoco.MjData(makeModel(a, b, 0)));
   return datas.get(b.shape);
 }
@@ -57,8 +62,17 @@ run({
   runs: 'wasm',
   pairs: ALL_PAIRS,
 
-  prepare: (a, b, threshold) => ({ model: makeModel(a, b, threshold), data: dataFor(a, b),
-    plane: b.shape === 'plane' ? { ...b, turn: turn([0, 0, 1], b.normal) } : null }),
+  prepare(a, b, threshold) {
+    let model;
+    try {
+      model = makeModel(a, b, threshold);
+    } catch (error) {
+      if (b.shape !== 'convex') throw error;
+      return null;  // MuJoCo makes no mesh of its vertices
+    }
+    return { model, data: dataFor(a, b, model), isOwn: b.shape === 'convex',
+      plane: b.shape === 'plane' ? { ...b, turn: turn([0, 0, 1], b.normal) } : null };
+  },
 
   query({ model, data, plane }, poseA, poseB) {
     data.qpos.set([...poseA.position, ...poseA.orientation]);
@@ -87,5 +101,8 @@ run({
     return { signed_distance: -deepest.depth, normal: deepest.normal, points };
   },
 
-  release: ({ model }) => model.delete(),
+  release({ model, data, isOwn }) {
+    if (isOwn) data.delete();
+    model.delete();
+  },
 });

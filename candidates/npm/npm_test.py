@@ -18,7 +18,7 @@ HERE = Path(__file__).resolve().parent
 sys.path.append(str(HERE.parent / "clients/testing"))
 from protocol import Child
 
-ALL = ("plane", "sphere", "capsule", "cylinder", "box")
+ALL = ("plane", "sphere", "capsule", "cylinder", "box", "convex")
 
 
 class Engine(NamedTuple):
@@ -58,6 +58,8 @@ SPHERE = {"shape": "sphere", "radius": 0.3}
 CAPSULE = {"shape": "capsule", "radius": 0.2, "half_length": 0.6}
 DISC = {"shape": "cylinder", "radius": 0.7, "half_length": 0.3}
 BOX = {"shape": "box", "half_extents": [0.8, 0.9, 0.4]}
+# A roof whose origin is elsewhere: its ridge is along y, 1.5 above the origin.
+ROOF = {"shape": "convex", "vertices": [[3, -1, 0], [3, 1, 0], [5, -1, 0], [5, 1, 0], [4, -1, 1.5], [4, 1, 1.5]]}
 DEPTH = 0.01
 
 # Name, B, pose of A, pose of B; the normal, and where along it the contact lies; at depth 0.01. The
@@ -101,6 +103,12 @@ CASES = [
      (0, -1.39, 0), UPRIGHT, (0, 0, 0), UPRIGHT, (0, -1, 0), 0.895),
     ("below a box", BOX,
      (0, 0, -1.39), UPRIGHT, (0, 0, 0), UPRIGHT, (0, 0, -1), 0.395),
+    ("below a roof", ROOF,
+     (0.1, 0.2, -0.99), UPRIGHT, (-4, 0, 0), UPRIGHT, (0, 0, -1), -0.005),
+    ("the side below a roof that is turned", ROOF,
+     (-0.49, 0.1, 0.2), UPRIGHT, (0, 0, 4), TO_X, (-1, 0, 0), -0.005),
+    ("the side at a roof's gable", ROOF,
+     (0.1, -1.49, 0.3), UPRIGHT, (-4, 0, 0), UPRIGHT, (0, -1, 0), 0.995),
 ]
 MOVED = ((0.36, 0.48, -0.64, 0.48), (1.5, -2.25, 0.75))
 
@@ -169,7 +177,7 @@ class Npm(unittest.TestCase):
                 self.assertEqual(child.hello["precision"], "double" if "mujoco" in name else "float")
                 self.assertEqual(child.hello["pairs"], [f"cylinder-{kind}" for kind in engine.kinds])
                 supported = child.prepare([(i, CYLINDER, b, 0, 0.01) for i, b in enumerate(
-                    (PLANE, SPHERE, CAPSULE, CYLINDER, BOX))])
+                    (PLANE, SPHERE, CAPSULE, CYLINDER, BOX, ROOF))])
                 self.assertEqual(supported, [kind in engine.kinds for kind in ALL])
                 child.release(list(range(len(ALL))))
 
@@ -258,6 +266,26 @@ class KnownFailures(unittest.TestCase):
         self.assertAlmostEqual(self.ask("jolt", disc, *pose).signed_distance, distance, delta=1e-6)
         without = self.ask("jolt-margin-0", disc, *pose)
         self.assertAlmostEqual(without.signed_distance, -0.08, delta=1e-3)
+
+    def test_only_some_know_a_flat_body(self):
+        """A cylinder that stands 0.05 deep in a triangle, and one beside it, within the box about it."""
+        triangle = {"shape": "convex", "vertices": [[-2, -2, 0], [2, -2, 0], [0, 2, 0]]}
+        for name, deeper in (("jolt", 0), ("jolt-world", 0), ("rapier", 0), ("rapier-world", 0),
+                             ("havok", 0.015), ("physx", 0.01), ("physx-world", 0.01)):
+            with self.subTest(engine=name):
+                on_face = self.ask(name, triangle, (0, -0.5, 0.95), UPRIGHT)
+                self.assertAlmostEqual(on_face.signed_distance, -0.05 - deeper, delta=1e-4)
+                beside = self.ask(name, triangle, (1.9, 1.9, 0.95), UPRIGHT)
+                self.assertEqual(beside.status, "contact" if "physx" in name else "none")
+        for name in ("mujoco3", "mujoco3-single"):
+            self.assertEqual(self.ask(name, triangle, (0, -0.5, 0.95), UPRIGHT).status, "unsupported")
+
+    def test_jolt_rounds_a_tip_and_havok_too(self):
+        tip = {"shape": "convex", "vertices": [[-1, -1, 0], [1, -1, 0], [0, 1.5, 0], [0, 0, 1]]}
+        for name, missing in (("jolt", 0.0108), ("jolt-margin-0", 0), ("rapier", 0), ("physx", 0),
+                              ("havok", 0.0026), ("mujoco3", 0)):
+            answer = self.ask(name, tip, (0.1, 0.05, 1.95), UPRIGHT)
+            self.assertAlmostEqual(answer.signed_distance, missing - 0.05, delta=1e-4)
 
     def test_a_cylinder_of_havok_has_sixteen_sides(self):
         for eighths, missing in ((0, 0), (0.5, 1 - math.cos(math.pi / 16)), (1, 0)):

@@ -20,7 +20,8 @@ export const folderOf = (name) => path.join(path.resolve(folder), 'node_modules'
 export const versionOf = (name) =>
   JSON.parse(fs.readFileSync(path.join(folderOf(name), 'package.json'))).version;
 
-export const ALL_PAIRS = ['plane', 'sphere', 'capsule', 'cylinder', 'box'].map((b) => `cylinder-${b}`);
+export const ALL_PAIRS = ['plane', 'sphere', 'capsule', 'cylinder', 'box', 'convex']
+  .map((b) => `cylinder-${b}`);
 
 /** The rotation `q` after the rotation `p`; w, x, y, z. */
 export const multiply = ([a, b, c, d], [w, x, y, z]) => [
@@ -50,8 +51,8 @@ export function turn(from, to) {
   return q.map((v) => v / length);
 }
 
-/** The smallest half extent. */
-export const smallest = (shape) =>
-  Math.min(...shape.half_extents ?? [shape.radius, shape.half_length ?? Infinity]);
+/** The smallest half extent; of a convex body, whose margin engines bound themselves, Infinity. */
+export const smallest = (shape) => Math.min(
+  ...shape.half_extents ?? [shape.radius ?? Infinity, shape.half_length ?? Infinity]);
 
 export const middle = (u, v) => [(u[0] + v[0]) / 2, (u[1] + v[1]) / 2, (u[2] + v[2]) / 2];

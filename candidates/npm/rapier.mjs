@@ -6,7 +6,8 @@
 //              of 1 µs, and the manifolds of World.contactPair are taken; then they are removed, so
 //              that nothing is left of the pair. All of it is timed.
 // Shapes       Cylinder and Capsule along y, turned to ours; Ball, Cuboid; HalfSpace, which passes
-//              through the origin of its frame: displaced along its normal.
+//              through the origin of its frame: displaced along its normal; ConvexPolyhedron of a
+//              convex body's vertices, be they in one plane or not, Triangle of three.
 // Margin       None; Rapier's round shapes (RoundCylinder) are others.
 // Conventions  The normal is normal1 of B if B is the plane, which has to come first, otherwise
 //              normal2, which points out of B as well. A manifold's normal points from its first
@@ -30,6 +31,9 @@ function makeShape(shape) {
     case 'capsule': return new RAPIER.Capsule(shape.half_length, shape.radius);
     case 'sphere': return new RAPIER.Ball(shape.radius);
     case 'box': return new RAPIER.Cuboid(...shape.half_extents);
+    case 'convex': return shape.vertices.length === 3
+      ? new RAPIER.Triangle(...shape.vertices.map(toVector))
+      : new RAPIER.ConvexPolyhedron(new Float32Array(shape.vertices.flat()));
     default: return new RAPIER.HalfSpace(toVector(shape.normal));
   }
 }
