@@ -111,7 +111,8 @@ class Hull {
 /// The surface of a prism; ODE keeps pointers to the corners and indices.
 class Mesh {
  public:
-  Mesh(int sides, double radius, double half_length)
+  /// `meets_hull`: ODE wants the angles between faces for that.
+  Mesh(int sides, double radius, double half_length, bool meets_hull)
       : corners_(touchstone::RoundedPolytope::prism(sides, radius, half_length).vertices()),
         data_(dGeomTriMeshDataCreate()) {
     const auto n = static_cast<dTriIndex>(sides);
@@ -130,6 +131,9 @@ class Mesh {
     dGeomTriMeshDataBuildDouble(data_, corners_.data(), sizeof(touchstone::Vec3),
                                 static_cast<int>(corners_.size()), indices_.data(),
                                 static_cast<int>(indices_.size()), 3 * sizeof(dTriIndex));
+    if (meets_hull) {
+      dGeomTriMeshDataPreprocess2(data_, 1u << dTRIDATAPREPROCESS_BUILD_FACE_ANGLES, nullptr);
+    }
   }
   ~Mesh() { dGeomTriMeshDataDestroy(data_); }
   Mesh(const Mesh&) = delete;
@@ -152,7 +156,7 @@ struct ts_prepared {
   ts_prepared(const ts_shape& a, const ts_shape& b, int sides)
       : shape_b_(b),
         hull_(hull_of(b)),
-        mesh_(std::make_unique<Mesh>(sides, a.size[0], a.size[1])),
+        mesh_(std::make_unique<Mesh>(sides, a.size[0], a.size[1], b.kind == TS_CONVEX)),
         model_(std::in_place, a, b,
                [sides](double radius, double half_length) {
                  return touchstone::inscribed_prism(sides, radius, half_length);
