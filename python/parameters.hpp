@@ -22,6 +22,9 @@ struct AnyFirst {
   py::object value = py::ellipsis();
 };
 
+/// Points, one a row.
+using Points = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+
 /// A vector of Eigen. None of numpy's masked arrays is one, whose mask would be lost.
 template <class Vector>
 struct Numbers {
@@ -76,6 +79,9 @@ inline constexpr const char* must_be<std::optional<Numbers<Eigen::Matrix3d>>> =
     "three rows of three numbers, none of them masked";
 template <>
 inline constexpr const char* must_be<std::optional<Numbers<Vec3>>> = must_be<Numbers<Vec3>>;
+template <>
+inline constexpr const char* must_be<Numbers<Points>> =
+    "rows of three numbers, none of them masked";
 template <>
 inline constexpr const char* must_be<std::uint64_t> = "a whole number that is not negative";
 template <>

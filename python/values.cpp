@@ -4,6 +4,7 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
+#include "oracle/hull.hpp"
 #include "properties/given_orientation.hpp"
 #include "python/parameters.hpp"
 #include "reference/invalid_input.hpp"
@@ -97,6 +98,32 @@ its ends reach half_length + radius. Metres.
       "Along the local x, y, z axes, metres; an array of three.");
   define_value<Box>(box, {"half_extents"},
                     [](const Box& s) { return py::make_tuple(plain(s.half_extents())); });
+
+  py::class_<Convex> convex(m, "Convex", R"(Convex(vertices)
+
+The convex hull of three or more points of its own frame, which need not be about its origin: a
+polyhedron, or a polygon in space, as a triangle. Of up to 4,096 points those are kept that are
+corners, which exact arithmetic decides. Metres.
+
+>>> touchstone.Convex([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0.25, 0.25, 0)])
+Convex(vertices=((0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)))
+)");
+  define_constructor(
+      convex,
+      +[](const Numbers<Points>& vertices) {
+        std::vector<Vec3> points;
+        for (const auto& row : vertices.vector.rowwise()) points.emplace_back(row);
+        return oracle::convex_hull(points);
+      },
+      py::arg("vertices"));
+  convex.def_property_readonly(
+      "vertices", [](const Convex& s) { return frozen(vectors_to_python(s.vertices())); },
+      "Metres; an array of shape (n, 3).");
+  define_value<Convex>(convex, {"vertices"}, [](const Convex& s) {
+    py::tuple vertices(s.vertices().size());
+    for (std::size_t i = 0; i < s.vertices().size(); ++i) vertices[i] = plain(s.vertices()[i]);
+    return py::make_tuple(vertices);
+  });
 }
 
 void bind_pose(py::module_& m) {
@@ -228,8 +255,9 @@ Shape shape_from_python(const char* name, py::handle value) {
   if (py::isinstance<Sphere>(value)) return value.cast<Sphere>();
   if (py::isinstance<Capsule>(value)) return value.cast<Capsule>();
   if (py::isinstance<Box>(value)) return value.cast<Box>();
+  if (py::isinstance<Convex>(value)) return value.cast<Convex>();
   throw py::type_error(std::string(name) + " is " + shown(value) +
-                       ": must be a Cylinder, Plane, Sphere, Capsule or Box of touchstone");
+                       ": must be a Cylinder, Plane, Sphere, Capsule, Box or Convex of touchstone");
 }
 
 Answer answer_from_python(py::handle value) {

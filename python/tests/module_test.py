@@ -14,7 +14,8 @@ from fractions import Fraction
 
 import numpy
 import touchstone
-from touchstone import Box, Capsule, Configuration, Contact, Cylinder, Plane, Point, Pose, Sphere
+from touchstone import (Box, Capsule, Configuration, Contact, Convex, Cylinder, Plane, Point, Pose,
+                        Sphere)
 
 CAN = Cylinder(0.5, 1)
 FLOOR = Plane((0, 0, 1), 0)
@@ -32,8 +33,12 @@ def pose_of(row):
     return Pose(row[:3], row[3:])
 
 
+ROOF = Convex([(-1, -2, 0), (-1, 2, 0), (1, -2, 0), (1, 2, 0), (0, -2, 1), (0, 2, 1)])
+TRIANGLE = Convex([(0, 0, 0.1), (1, 0, 0), (0, 1, 0)])
+
+
 class Values(unittest.TestCase):
-    all = OTHERS + [CAN, Pose(), Pose((1, 2, 3), LYING), Point((1, 2, 3), (0, 0, 1), 0.5),
+    all = OTHERS + [ROOF, TRIANGLE, Configuration(CAN, Pose(), ROOF, Pose()), CAN, Pose(), Pose((1, 2, 3), LYING), Point((1, 2, 3), (0, 0, 1), 0.5),
                     Contact(-0.25, (0, 0, 1), [Point((1, 2, 3), (0, 0, 1), 0.25)]),
                     Configuration(CAN, Pose((1, 2, 3)), Sphere(1), Pose()),
                     Configuration.of("cylinder-box/rim-face/1/2")]
@@ -74,9 +79,19 @@ class Values(unittest.TestCase):
 
     def test_arrays_of_values_cannot_be_written_to(self):
         for array in (Pose().position, Pose().orientation, Pose().rotation, FLOOR.normal,
-                      Box((1, 2, 3)).half_extents):
+                      Box((1, 2, 3)).half_extents, TRIANGLE.vertices[0]):
             with self.assertRaises(ValueError):
                 array[0] = 1
+
+    def test_of_a_convex_body_corners_are_kept_in_their_order(self):
+        corners = [(0.0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
+        inner = [(0.25, 0.25, 0.25), (0.5, 0, 0), (0.25, 0.25, 0), (1, 0, 0)]
+        body = Convex(corners[:2] + inner + corners[2:])
+        self.assertEqual(body.vertices.tolist(), [list(c) for c in corners])
+        self.assertEqual(body, Convex(numpy.array(corners)))
+        self.assertNotEqual(body, Convex(corners[::-1]))
+        tenth = math.nextafter(0.1, 1)  # no rounding decides what is outside
+        self.assertEqual(len(Convex([(0, 0, 0), (1, 0, 0.1), (0, 1, 0.1), (0.5, 0.5, tenth)]).vertices), 4)
 
     def test_bad_sizes_are_refused_with_field_value_and_remedy(self):
         for make, text in [(lambda: Cylinder(-1, 1), "radius is -1: must be positive and finite"),
@@ -84,6 +99,9 @@ class Values(unittest.TestCase):
                            (lambda: Box((1, 0, 1)), r"half_extents\[1\] is 0: must be"),
                            (lambda: Plane((0, 0, 0), 1), "normal is .*: must"),
                            (lambda: Sphere(math.inf), "radius is inf: must be"),
+                           (lambda: Convex([(0, 0, 0), (1, 1, 1)]), "vertices is .*: must"),
+                           (lambda: Convex([(0, 0, 0), (1, 1, 1), (2, 2, 2)]), "vertices is .*: must"),
+                           (lambda: Convex([(0, 0, 0), (1, 0, 0), (0, math.nan, 0)]), "vertices.*: must be finite"),
                            (lambda: Pose((0, math.nan, 0)), "position.* is nan: must be"),
                            (lambda: Pose((0, 0, 0), (0, 0, 0, 0)), "orientation is .*: must")]:
             with self.assertRaisesRegex(ValueError, text):
@@ -106,6 +124,7 @@ class Values(unittest.TestCase):
                            (lambda: Pose((0, 0, 0), four), "orientation"),
                            (lambda: Plane(three, 1), "normal"),
                            (lambda: Box(numpy.ma.ones(3)), "half_extents"),
+                           (lambda: Convex(numpy.ma.ones((3, 3))), "vertices"),
                            (lambda: Point(three, (0, 0, 1), 0), "position"),
                            (lambda: Point((0, 0, 0), three, 0), "normal"),
                            (lambda: Contact(0, three), "normal")]:
@@ -115,6 +134,7 @@ class Values(unittest.TestCase):
     def test_vectors_of_other_lengths_are_refused_by_name(self):
         for make, text in [(lambda: Pose((0, 0)), r"position is \(0, 0\): must be three numbers"),
                            (lambda: Box("abc"), "half_extents is 'abc': must be three numbers"),
+                           (lambda: Convex([(0, 0), (1, 0), (0, 1)]), r"vertices is .*: must be rows of three"),
                            (lambda: Pose((0, 0, 0), None), "orientation is None: must be four")]:
             with self.assertRaisesRegex(TypeError, text):
                 make()
@@ -423,7 +443,7 @@ class Arguments(unittest.TestCase):
     """What is wrong is named, with what would be right, whatever is called."""
 
     good = {"radius": 1, "half_length": 1, "normal": (0, 0, 1), "displacement": 0,
-            "half_extents": (1, 1, 1), "position": (0, 0, 0), "orientation": (1, 0, 0, 0),
+            "half_extents": (1, 1, 1), "vertices": TRIANGLE.vertices, "position": (0, 0, 0), "orientation": (1, 0, 0, 0),
             "depth": 0, "signed_distance": 0, "points": (), "a": CAN, "pose_a": Pose(), "b": FLOOR,
             "pose_b": Pose(), "threshold": 0, "width": 1e-3, "pair": "cylinder-plane",
             "classes": ["lying"], "seed": 1, "count": 1, "tolerance": 1e-4,

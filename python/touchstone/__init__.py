@@ -1,8 +1,9 @@
 """Cylinder contacts: the exact truth, Touchstone's own routines, and scores of yours.
 
-A cylinder (body A) meets a plane, sphere, capsule, cylinder or box (body B). Lengths are in metres;
-poses map a body's frame to the world's; normals are unit vectors from B to A in the world's frame,
-along which A moves to come free; signed distances are positive apart and negative inside.
+A cylinder (body A) meets a plane, sphere, capsule, cylinder, box or convex body (body B). Lengths are
+in metres; poses map a body's frame to the world's; normals are unit vectors from B to A in the
+world's frame, along which A moves to come free; signed distances are positive apart and negative
+inside.
 
 >>> def mine(a, pose_a, b, pose_b, threshold):
 ...     return None  # there is never a contact
@@ -19,12 +20,12 @@ except ImportError as reason:
     raise ImportError("touchstone needs numpy (Debian: python3-numpy)") from reason
 del numpy
 
-from ._touchstone import (PAIRS, Box, Capsule, Configuration, Contact, Contacts, Cylinder, Patch,
-                          Plane, Point, Pose, Report, Score, Sphere, Truth, __version__, classes,
-                          configurations, contact, overlaps, report, score, scores,
+from ._touchstone import (PAIRS, Box, Capsule, Configuration, Contact, Contacts, Convex, Cylinder,
+                          Patch, Plane, Point, Pose, Report, Score, Sphere, Truth, __version__,
+                          classes, configurations, contact, overlaps, report, score, scores,
                           signed_distance, truth)
 
-__all__ = ["PAIRS", "Box", "Capsule", "Configuration", "Contact", "Contacts", "Cylinder", "Patch",
-           "Plane", "Point", "Pose", "Report", "Score", "Sphere", "Truth", "classes",
+__all__ = ["PAIRS", "Box", "Capsule", "Configuration", "Contact", "Contacts", "Convex", "Cylinder",
+           "Patch", "Plane", "Point", "Pose", "Report", "Score", "Sphere", "Truth", "classes",
            "configurations", "contact", "overlaps", "report", "score", "scores",
            "signed_distance", "truth"]

@@ -42,7 +42,12 @@ class Box:
     @property
     def half_extents(self) -> Floats: ...
 
-Shape: TypeAlias = Cylinder | Plane | Sphere | Capsule | Box
+class Convex:
+    def __init__(self, vertices: ArrayLike) -> None: ...
+    @property
+    def vertices(self) -> Floats: ...
+
+Shape: TypeAlias = Cylinder | Plane | Sphere | Capsule | Box | Convex
 
 class Pose:
     def __init__(self, position: ArrayLike = ..., orientation: ArrayLike = ...,
