@@ -103,19 +103,25 @@ std::string string_literal(std::string_view text) {
   return result + '"';
 }
 
-/// Throws InvalidInput (field "--emit") with those that exist.
-[[noreturn]] void refuse(std::string_view name, bool with_plane) {
+/// Has the program lines for the pair? Those that know convex bodies have lines for them.
+bool knows(const Program& program, Pair pair) {
+  if (pair == Pair::plane) return program.plane;
+  return pair != Pair::convex || program.source.find("convex]") != program.source.npos;
+}
+
+/// Throws InvalidInput (field "--emit") with those that know the pair.
+[[noreturn]] void refuse(std::string_view name, Pair pair) {
   std::vector<std::string> names = reproducer_engines();
-  if (with_plane) {
-    std::erase_if(names, [](const std::string& n) {
-      return std::none_of(programs.begin(), programs.end(),
-                          [&](const Program& p) { return p.engine == n && p.plane; });
-    });
-  }
+  std::erase_if(names, [&](const std::string& n) {
+    return std::none_of(programs.begin(), programs.end(),
+                        [&](const Program& p) { return p.engine == n && knows(p, pair); });
+  });
+  const char* const what = pair == Pair::plane    ? ", that knows a half-space"
+                           : pair == Pair::convex ? " of a plug-in, that knows convex bodies"
+                                                  : "";
   throw InvalidInput(
       "--emit", string_literal(name),
-      fmt::format("must be one of {}, or another candidate{}", fmt::join(names, ", "),
-                  with_plane ? ", that knows a half-space" : ""));
+      fmt::format("must be one of {}, or another candidate{}", fmt::join(names, ", "), what));
 }
 
 /// The candidate of that name; null if it cannot be asked here, which few programs need.
@@ -145,12 +151,11 @@ const Program& find_program(std::string_view name, std::string_view language,
     }
   }
   if (of_engine.empty()) {
-    if (!candidate || (!candidate->command() && !candidate->plugin())) {
-      refuse(name, pair == Pair::plane);
-    }
+    if (!candidate || (!candidate->command() && !candidate->plugin())) refuse(name, pair);
     of_engine.push_back(candidate->command() ? &command : &plugin);
   }
-  if (pair == Pair::plane && !of_engine[0]->plane) refuse(name, true);
+  std::erase_if(of_engine, [&](const Program* p) { return !knows(*p, pair); });
+  if (of_engine.empty()) refuse(name, pair);
   if (candidate && !candidate->has_routine_for(pair)) {
     throw InvalidInput("--emit", string_literal(name),
                        fmt::format("must be a candidate with a routine for {}", pair_name(pair)));

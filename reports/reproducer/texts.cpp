@@ -101,6 +101,22 @@ void put_plane(Writer& writer, const ts_shape& plane, const ts_pose& pose) {
   writer.put("plane_along_z", multiply(pose.orientation, turn({0, 0, 1}, plane.size)));
 }
 
+/// For C++: each vertex and each face in braces.
+void put_convex(Writer& writer, const Convex& convex) {
+  std::vector<std::string> vertices, faces;
+  for (const Vec3& vertex : convex.vertices()) {
+    writer.put("vertex_b", std::span(vertex.data(), 3));
+    vertices.push_back('{' + writer.texts["vertex_b"] + '}');
+  }
+  for (const Convex::Face& face : convex.faces()) {
+    faces.push_back(fmt::format("{{{}}}", fmt::join(face.vertices, ", ")));
+  }
+  writer.put("centre_b", std::span(convex.middle().data(), 3));
+  writer.texts["vertices_b"] =
+      fmt::format("{}", fmt::join(vertices, ",\n                               "));
+  writer.texts["faces_b"] = fmt::format("{}", fmt::join(faces, ", "));
+}
+
 }  // namespace
 
 Configuration as_asked(const Configuration& configuration) {
@@ -136,6 +152,7 @@ Texts question_texts(const Configuration& c, NumberStyle numbers) {
     writer.put_xyzw(name + "_along_x", multiply(q, x_to_z));
   }
   if (b.kind == TS_PLANE) put_plane(writer, b, pose_b);
+  if (const auto* const convex = std::get_if<Convex>(&c.b)) put_convex(writer, *convex);
   std::string shape = shape_name(c.b);
   writer.texts["shape_b"] = shape;
   shape[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(shape[0])));
