@@ -13,6 +13,7 @@
 
 #include "candidates/host/interruption.hpp"
 #include "properties/identity.hpp"
+#include "properties/named.hpp"
 #include "reports/covered_pairs.hpp"
 #include "reports/factors.hpp"
 #include "reports/statistics.hpp"
@@ -284,7 +285,7 @@ Report make_report(const Campaign& campaign, const std::string& command) {
   add_results(report, scored);
   for (PoseClassDescription& c : report.classes) {
     if (c.group == group_name(Group::given))
-      c.digest = digest_of_own(campaign.own.at(parse_pair(c.pair)));
+      c.digest = digest_of_own(campaign.own.at(named(known_pairs, c.pair, "pair", pair_name)));
   }
   if (!report.partial) report.drake_protocol = drake_protocol(campaign, candidates);
   report.wall_seconds =
