@@ -47,7 +47,7 @@ struct Resized {
     const Vec3& h = s.half_extents();
     return Box(Vec3(size(h.x()), size(h.y()), size(h.z())));
   }
-  Convex operator()(const Convex& s) const { return s; }  // convex: later stage
+  Convex operator()(const Convex& s) const { return s; }  ///< its vertices are not sizes
   Plane operator()(const Plane& s) const { return s; }
   Shape operator()(const Shape& shape) const {
     return std::visit([this](const auto& s) -> Shape { return (*this)(s); }, shape);
