@@ -8,8 +8,10 @@ import sys
 
 
 def options(command):
-    """Options of code generation, in their order: a later one overrides an earlier one."""
-    return re.findall(r" (-(?:O|f|m)\S*)", command)
+    """Options of code generation, in their order: a later one overrides an earlier one, and one that
+    is said twice (-fPIC, of a module) is the same."""
+    given = re.findall(r" (-(?:O|f|m)\S*)", command)
+    return [option for option, before in zip(given, [None, *given]) if option != before]
 
 
 def precompiled(command):
