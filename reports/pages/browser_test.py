@@ -541,7 +541,7 @@ class Report(PageTest):
         self.press(self.all("#matrix thead th")[1])
 
     def test_a_name_in_the_matrix_tells_what_it_stands_for(self):
-        for name, meaning in (("bullet-margin-0", "margin 0 on cylinder and box"), ("prism:16", "prism:16 models every cylinder")):
+        for name, meaning in (("bullet-margin-0", "margin 0 on cylinder, box"), ("prism:16", "prism:16 models every cylinder")):
             row = next(r for r in self.all("#matrix tbody tr") if r.text.split()[0] == name)
             self.assertIn(meaning, self.hover(row.find_element(By.TAG_NAME, "th")).text)
 
