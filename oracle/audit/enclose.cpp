@@ -35,16 +35,16 @@ Enclosure over_plane(const Configuration& c, const Plane& plane, double unit) {
 
 constexpr int max_steps = 200;
 
-/// Doubles suffice unless the bodies nearly touch. There the pair's difference is too short for its
+/// Doubles suffice unless the bodies nearly touch, or rounding stops the search, as it does of
+/// features that are parallel. If they nearly touch, the pair's difference is too short for its
 /// direction to be known: an error of 1e-16 in its square is a length of 1e-8.
 ClosestPair<double> closest_pair(const Configuration& c, const Bodies<double>& search,
                                  double unit) {
   constexpr double tolerance = 1e-15, nearly_touching = 1e-6;
   auto found = ClosestPairSearch<double>(search).run(tolerance, max_steps);
   const double distance = difference(search, found.pair).norm();
-  if (distance - found.gap < 1e-13 || distance > nearly_touching || found.gap < -nearly_touching) {
-    return found;
-  }
+  const double enough = distance > nearly_touching ? 1e-10 : 1e-13;
+  if (distance - found.gap < enough || found.gap < -nearly_touching) return found;
   const auto precise = make_bodies<Multiprecision>(c, unit);
   const auto again = ClosestPairSearch<Multiprecision>(precise).run(tolerance, max_steps);
   return {as<double>(again.pair), as<double>(again.direction), again.gap.convert_to<double>()};

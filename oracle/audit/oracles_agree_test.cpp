@@ -24,6 +24,7 @@
 #include "properties/identity.hpp"
 #include "properties/numbers.hpp"
 #include "reference/invalid_input.hpp"
+#include "reference/support.hpp"
 
 namespace touchstone {
 namespace {
@@ -155,6 +156,90 @@ TEST_P(PoseClasses, BothOraclesEncloseOneSignedDistance) {
 INSTANTIATE_TEST_SUITE_P(, PoseClasses, testing::ValuesIn(all_pairs), [](const auto& pair) {
   return std::string(pair_name(pair.param)).substr(std::string("cylinder-").size());
 });
+
+/// A hull of points of a small lattice or of any, of which some kinds lie in one plane, or in
+/// nearly one, or are a needle; both bodies upright, or turned by small integers, or anyhow.
+Configuration with_any_hull(std::uint64_t index) {
+  Draw draw{rc::Random(index)};
+  const bool on_lattice = draw.coin();
+  const auto coordinate = [&](int half) {
+    return on_lattice ? 0.5 * static_cast<double>(draw.integer(-half, half))
+                      : draw.uniform(-0.5 * half, 0.5 * half);
+  };
+  const auto vector = [&](int half) {
+    const double x = coordinate(half), y = coordinate(half);
+    return Vec3(x, y, coordinate(half));
+  };
+  const auto pose = [&](const Vec3& at) {
+    if (draw.coin()) return Pose(at, {1, 0, 0, 0});
+    const Vec3 axis = vector(6);
+    return Pose(at, {draw.coin() ? 1 : 2.5, axis.x(), axis.y(), axis.z()});
+  };
+  constexpr double flatness[] = {1, 1, 0, 1e-3, 1e-9, 1e-15};
+  constexpr std::int64_t counts[] = {3, 4, 6, 12, 40};
+  const double thin = draw.any_of(flatness), wide = draw.one_in(5) ? 0.01 : 1;
+  for (;;) {
+    std::vector<Vec3> points;
+    for (auto i = draw.any_of(counts); i > 0; --i) {
+      points.push_back(vector(4).cwiseProduct(Vec3(1, wide, thin)));
+    }
+    const double radius = std::abs(coordinate(3)) + 0.5;
+    const Cylinder cylinder(radius, std::abs(coordinate(3)) + 0.5);
+    const Pose at = pose(vector(7));
+    try {
+      return {cylinder, at, oracle::convex_hull(points), pose(Vec3::Zero())};
+    } catch (const InvalidInput&) {
+      // All on one line.
+    }
+  }
+}
+
+TEST(Hulls, AreAnsweredAlikeByBothOracles) {
+  for (std::uint64_t i = 0; i < count(); ++i) {
+    SCOPED_TRACE(i);
+    const Configuration c = with_any_hull(i);
+    const oracle::Truth t = oracle::truth(c);
+    const bool is_continuum = t.ties == oracle::Ties::continuum;
+    const audit::Enclosure e = expect_confirmed(c, t, audit::Budget{}, is_continuum ? 1e-5 : 1e-9);
+    EXPECT_LE(e.hi - e.lo, 1e-4 * larger_size(c));
+    if (HasFailure()) {
+      showValue(c, std::cout);
+      return;
+    }
+  }
+}
+
+TEST(Hulls, HavePatchesThatLieInBothBodies) {
+  std::uint64_t regions = 0, segments = 0;
+  for (std::uint64_t i = 0; i < count(); ++i) {
+    SCOPED_TRACE(i);
+    const Configuration c = with_any_hull(i);
+    Draw draw{rc::Random(i)};
+    // Farther off, the patch looks for another point.
+    const double off = 1e-9 * (larger_size(c) + c.pose_a.position().norm());
+    for (const oracle::OptimalNormal& n : oracle::truth(c).normals) {
+      const oracle::ContactPatch patch = oracle::contact_patch(c, n);
+      regions += patch.kind() == oracle::ContactPatch::Kind::region ? 1 : 0;
+      segments += patch.kind() == oracle::ContactPatch::Kind::segment ? 1 : 0;
+      // Moved along the normal into either support plane, it is no farther out than the body is.
+      const double top = support(c.b, c.pose_b, n.n), bottom = -support(c.a, c.pose_a, -n.n);
+      for (const Vec3& p : patch.outline()) {
+        for (int k = 0; k < 30; ++k) {
+          const double x = draw.uniform(-1, 1), y = draw.uniform(-1, 1);
+          const Vec3 m = Vec3(x, y, draw.uniform(-1, 1)).normalized();
+          const double along = p.dot(m) - p.dot(n.n) * n.n.dot(m), slope = n.n.dot(m);
+          EXPECT_LE(along + top * slope, support(c.b, c.pose_b, m) + off);
+          EXPECT_LE(along + bottom * slope, support(c.a, c.pose_a, m) + off);
+        }
+      }
+    }
+    if (HasFailure()) {
+      showValue(c, std::cout);
+      return;
+    }
+  }
+  EXPECT_GT(regions + segments, 0u);
+}
 
 }  // namespace
 
