@@ -109,6 +109,23 @@ template <class Body>
   }
 }
 
+/// Are all points on the hull and on A, but for what those of round bodies that lean are off? Of
+/// faces that are nearly in one plane the one that leans least need not be the one that A meets.
+bool are_on_both(const Contact& contact, const PosedCylinder& a, const PosedConvex& b,
+                 const Vec3& origin, const Margins& margins) {
+  const double largest = std::max(extents(a).largest, extents(b).largest);
+  constexpr double slant = 50;  // slack over size, half squared: 1e-3 is a slant of 1e-2
+  const double tolerance = margins.unseen_depth() + slant * margins.slack * margins.slack / largest;
+  return std::all_of(contact.points().begin(), contact.points().end(), [&](const ContactPoint& p) {
+    const Vec3 x = p.position - origin, half = p.depth / 2 * contact.normal;
+    return std::max(outside(a, x - half), outside(b, x + half)) <= tolerance;
+  });
+}
+template <class Body>
+bool are_on_both(const Contact&, const PosedCylinder&, const Body&, const Vec3&, const Margins&) {
+  return true;
+}
+
 /// Sees to a point of the whole depth, and to none that is deeper.
 template <class Body>
 void hold_depth(Contact& contact, const PosedCylinder& a, const Body& b, const Vec3& origin,
@@ -119,7 +136,8 @@ void hold_depth(Contact& contact, const PosedCylinder& a, const Body& b, const V
     leave_no_deeper(contact, depth, margins);
     deepest = max_depth(contact);
   }
-  if (!(depth - deepest <= margins.unseen_depth())) {
+  if (!(depth - deepest <= margins.unseen_depth()) ||
+      !are_on_both(contact, a, b, origin, margins)) {
     add_deepest(contact, a, b, origin, margins);
   }
 }

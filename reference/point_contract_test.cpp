@@ -95,6 +95,58 @@ TEST_P(PointContractOfHulls, HoldsAtEveryThreshold) {
     }
   }
 }
+TEST_P(PointContractOfHulls, HoldsWithAnyPreviousNormalToWithinTheThreshold) {
+  if (GetParam() == HullKind::nearly_flat) {
+    GTEST_SKIP() << "of several faces nearly in one plane the one that is taken may lie beside A";
+  }
+  Random random(2);
+  for (std::uint64_t i = 0; i < contacts_per_class(); ++i) {
+    SCOPED_TRACE(i);
+    const Configuration c = with_hull(GetParam(), random);
+    const SignedDistance plain = signed_distance(c);
+    const double size = smaller_size(c);
+    const Vec3 any = random.direction();
+    for (const Vec3& previous : {any, Vec3(-plain.normal), plain.normal}) {
+      for (const double threshold :
+           {0.0, 5e-5 * size, plain.value + 1e-3 * size, 10 * larger_size(c)}) {
+        SCOPED_TRACE(threshold);
+        const Contact answer = contact(c, threshold, &previous);
+        if (answer.points().empty()) continue;
+        EXPECT_GE(answer.signed_distance,
+                  plain.value - std::max(threshold, 0.0) - 1e-13 * scale_of(c));
+        expect_depths(c, answer, threshold);
+        const double off = 1e-5 * larger_size(c) + position_rounding(c) + std::max(0.0, threshold);
+        for (const ContactPoint& p : answer.points()) {
+          const Vec3 half = p.depth / 2 * answer.normal;
+          EXPECT_LE(outside(c.a, c.pose_a, p.position - half), off);
+          EXPECT_LE(outside(c.b, c.pose_b, p.position + half), off);
+        }
+        if (HasFailure()) return;
+      }
+    }
+  }
+}
+
+TEST_P(PointContractOfHulls, HoldsOfAllPointsWithinTheThreshold) {
+  if (GetParam() == HullKind::needle) {
+    GTEST_SKIP() << "of several faces nearly in one plane the one that is taken may lie beside A";
+  }
+  constexpr double leans_most = 0.1;
+  Random random(3);
+  for (std::uint64_t i = 0; i < contacts_per_class(); ++i) {
+    SCOPED_TRACE(i);
+    Configuration c = with_hull(GetParam(), random);
+    if (random.toss()) c = moved_to_depth(c, random.power_of_ten(-12, -1) * smaller_size(c));
+    const double distance = signed_distance(c).value, size = smaller_size(c);
+    for (const double threshold : {0.0, 0.02 * size, distance + 0.1 * size}) {
+      SCOPED_TRACE(threshold);
+      expect_contract(c, threshold, leans_most * leans_most / 2 * larger_size(c),
+                      PointRange::within_threshold);
+      if (HasFatalFailure()) return;
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(, PointContractOfHulls, testing::ValuesIn(hull_kinds),
                          [](const auto& kind) {
                            return hull_kind_names[static_cast<int>(kind.param)];
