@@ -20,6 +20,7 @@
 //              middle of the two nearest points.
 // Threshold    collide has none. distance reports up to it.
 // Asserts      are active in Debian's libfcl: a failed one ends the process and counts as a crash.
+#include <cstddef>
 #include <fcl/fcl.h>
 #include <memory>
 #include <vector>
@@ -36,7 +37,7 @@ using Geometry = std::unique_ptr<fcl::CollisionGeometryd>;
 Geometry make_convex(const ts_shape& shape) {
   auto vertices = std::make_shared<std::vector<Vector>>();
   for (int i = 0; i < shape.vertex_count; ++i) {
-    vertices->emplace_back(Eigen::Map<const Vector>(shape.vertices + 3 * i));
+    vertices->emplace_back(Eigen::Map<const Vector>(shape.vertices + std::ptrdiff_t{3} * i));
   }
   const auto list = touchstone::face_list_of(shape);
   return std::make_unique<fcl::Convexd>(

@@ -16,6 +16,7 @@
 #include <ccd/ccd.h>
 #include <ccd/quat.h>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 #include "candidates/adapter.hpp"
@@ -50,7 +51,8 @@ void support_of_hull(const ts_shape& hull, const ccd_vec3_t& d, ccd_vec3_t& p) {
   double furthest = -std::numeric_limits<double>::infinity();
   for (int i = 0; i < hull.vertex_count; ++i) {
     ccd_vec3_t vertex;
-    ccdVec3Set(&vertex, hull.vertices[3 * i], hull.vertices[3 * i + 1], hull.vertices[3 * i + 2]);
+    const double* const v = hull.vertices + std::ptrdiff_t{3} * i;
+    ccdVec3Set(&vertex, v[0], v[1], v[2]);
     const double along = ccdVec3Dot(&d, &vertex);
     if (along <= furthest) continue;
     furthest = along;

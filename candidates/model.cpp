@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <numbers>
 
@@ -161,7 +162,8 @@ RoundedPolytope RoundedPolytope::prism(int sides, double radius, double half_len
 RoundedPolytope RoundedPolytope::hull(const ts_shape& convex) {
   RoundedPolytope body;
   for (int i = 0; i < convex.vertex_count; ++i) {
-    body.local_vertices_.emplace_back(Eigen::Map<const Vec3>(convex.vertices + 3 * i));
+    body.local_vertices_.emplace_back(
+        Eigen::Map<const Vec3>(convex.vertices + std::ptrdiff_t{3} * i));
   }
   body.add_faces(faces_of(convex));
   for (const Face& face : body.faces_) {

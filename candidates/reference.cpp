@@ -7,6 +7,7 @@
 //              the clearance along the first direction that proves it.
 // Hint         Passed on; it decides between normals whose gaps are within the threshold.
 // Convex       In double precision alone.
+#include <cstddef>
 #include <optional>
 #include <type_traits>
 #include <utility>
@@ -100,7 +101,7 @@ struct PreparedPair : ts_prepared {
 touchstone::Convex to_convex(const ts_shape& shape) {
   std::vector<Vec3> vertices;
   for (int i = 0; i < shape.vertex_count; ++i) {
-    vertices.emplace_back(Eigen::Map<const Vec3>(shape.vertices + 3 * i));
+    vertices.emplace_back(Eigen::Map<const Vec3>(shape.vertices + std::ptrdiff_t{3} * i));
   }
   return {std::move(vertices), touchstone::faces_of(shape)};
 }

@@ -10,6 +10,8 @@
 
 namespace touchstone {
 
+static_assert(Hull::max_vertices == Convex::max_vertices);
+
 Question question_of(const Asked& asked) {
   const Configuration& c = *asked.configuration;
   const Vec3 hint = asked.previous_normal ? *asked.previous_normal : Vec3(Vec3::Zero());

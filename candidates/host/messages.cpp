@@ -242,7 +242,7 @@ Json shape_json(const ts_shape& s) {
     case TS_CONVEX:
       json["vertices"] = Json::array();
       for (int i = 0; i < s.vertex_count; ++i) {
-        const double* const v = s.vertices + 3 * i;
+        const double* const v = s.vertices + std::ptrdiff_t{3} * i;
         json["vertices"].push_back({v[0], v[1], v[2]});
       }
   }
