@@ -26,11 +26,10 @@ double everyday(const Candidate& c) {
 }
 
 /// FCL's own EPA fails on two crossed cylinders and answers more than twice their depth; Bullet's
-/// margin makes a hull 0.04 larger, and of our own routines this stage has none for hulls.
+/// margin makes a hull 0.04 larger.
 bool is_beyond(const Candidate& c, const PlainContact& contact) {
   if (pair_of(contact.configuration) == Pair::convex) {
-    return c.name == "reference" || c.name == "bullet" || c.name == "bullet-persistent" ||
-           c.name == "bullet-float";
+    return c.name == "bullet" || c.name == "bullet-persistent" || c.name == "bullet-float";
   }
   return c.name == "fcl-indep" && contact.name == std::string("crossed cylinder");
 }
