@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "candidates/host/interruption.hpp"
+#include "oracle/as_hull.hpp"
 #include "properties/files/disk.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/covered_pairs.hpp"
@@ -185,16 +186,17 @@ TEST(Report, MarksWhoHasNoRoutineForSomePairs) {
 
 TEST(Report, IsOfAPersonsOwnConfigurationsByTheirIds) {
   Campaign c = some_configurations();
-  c.pairs = {Pair::plane, Pair::box};
+  c.pairs = {Pair::plane, Pair::box, Pair::convex};
   c.classes = {};
   const Identity shallow{Pair::plane, "general-shallow", 1, 0};
   c.own[Pair::plane] = {{"on the floor", make_configuration(shallow)},
                         {"2", make_configuration(shallow)}};
   c.own[Pair::box] = {{"3", make_configuration({Pair::box, "rim-face", 1, 0})}};
+  c.own[Pair::convex] = {{"4", oracle::with_hull(c.own[Pair::box][0].configuration)}};
   c.own_file = "poses.jsonl";
   const Report report = make_report(c, "x");
-  EXPECT_EQ(report.configurations, 3u);
-  ASSERT_EQ(report.classes.size(), 2u);
+  EXPECT_EQ(report.configurations, 4u);
+  ASSERT_EQ(report.classes.size(), 3u);
   for (const PoseClassDescription& each : report.classes) {
     EXPECT_EQ(each.pose_class, "given");
     EXPECT_EQ(each.digest.size(), 16u);
@@ -202,10 +204,10 @@ TEST(Report, IsOfAPersonsOwnConfigurationsByTheirIds) {
   ASSERT_FALSE(report.worst.empty());
   for (const WorstCase& worst : report.worst) {
     const Examination& e = worst.examination;
-    EXPECT_THAT(e.id, testing::AnyOf("on the floor", "2", "3"));
+    EXPECT_THAT(e.id, testing::AnyOf("on the floor", "2", "3", "4"));
     EXPECT_THAT(e.replay, testing::StartsWith("./touchstone replay poses.jsonl"));
-    EXPECT_THAT(e.replay, testing::EndsWith(e.id == "2" || e.id == "3" ? " --id " + e.id
-                                                                       : " --id 'on the floor'"));
+    EXPECT_THAT(e.replay,
+                testing::EndsWith(e.id.size() == 1 ? " --id " + e.id : " --id 'on the floor'"));
   }
   const json read = to_json(report_from_text(to_json(report).dump(), "report"));
   EXPECT_EQ(read["classes"], to_json(report)["classes"]);
