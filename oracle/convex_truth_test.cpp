@@ -448,6 +448,27 @@ TEST(ConvexTruth, NamesTheEdgeOfAPrismThatIsNearest) {
   }
 }
 
+TEST(ConvexTruth, OfABodyWithFacesToWithinRoundingIsThatOfItsVertices) {
+  const Convex box = convex_hull(box_corners({1, 1, 1}));
+  std::vector<std::vector<int>> faces;
+  for (const Convex::Face& face : box.faces()) faces.push_back(face.vertices);
+  std::vector<Vec3> points = box_corners({1, 1, 1});
+  points[7].z() = std::nextafter(1.0, 2.0);
+  const auto distance = [](const Shape& b) {
+    return truth({can, Pose({0, 0, 2.5}, Quaternion(4, 0, 3, 0)), b, Pose()}).signed_distance;
+  };
+  const Enclosure is = distance(Convex(points, faces)), hull_is = distance(convex_hull(points));
+  EXPECT_EQ(is.lo, hull_is.lo);
+  EXPECT_EQ(is.hi, hull_is.hi);
+}
+
+TEST(ConvexTruth, TwoOppositeNormalsThatNothingTellsFromATouchAreNoArc) {
+  const Convex huge = convex_hull({{1.7e308, 0, 0}, {-1.7e308, 0, 0}, {0, 1.7e308, 0}});
+  for (const NormalFamily& family : truth({can, Pose(), huge, Pose()}).families) {
+    EXPECT_NEAR(family.axis.norm(), 1, 1e-15);
+  }
+}
+
 TEST(ConvexTruth, ErrorBoundsWhatRoundingChanges) {
   GridPoses poses(8);
   std::mt19937 random(9);

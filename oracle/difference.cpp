@@ -237,6 +237,32 @@ Integer sum_of_sizes(const Difference& difference) {
   return sum;
 }
 
+bool has_exact_faces(const Difference::Hull& hull) {
+  const auto& [vertices, body, reach] = hull;
+  if (body.is_flat()) return vertices.size() == 3;
+  std::vector<IntegerVector> normals;
+  const auto above = [&](int face, int v) {
+    return sgn(dot(normals[face], vertices[v] - vertices[body.faces()[face].vertices[0]]));
+  };
+  for (int face = 0; face < static_cast<int>(body.faces().size()); ++face) {
+    normals.push_back(face_normal(hull, face));
+    const std::vector<int>& on = body.faces()[face].vertices;
+    for (std::size_t i = 3; i < on.size(); ++i) {
+      if (above(face, on[i]) != 0) return false;
+    }
+  }
+  std::vector<int> edges_at(vertices.size());
+  for (const Convex::Edge& edge : body.edges()) {
+    for (const int v : edge.vertices) ++edges_at[v];
+    const std::vector<int>& beside = body.faces()[edge.faces[1]].vertices;
+    const int beyond = *std::find_if(beside.begin(), beside.end(), [&](int v) {
+      return v != edge.vertices[0] && v != edge.vertices[1];
+    });
+    if (above(edge.faces[0], beyond) >= 0) return false;
+  }
+  return std::all_of(edges_at.begin(), edges_at.end(), [](int edges) { return edges > 2; });
+}
+
 IntegerVector face_normal(const Difference::Hull& hull, int face) {
   const std::vector<int>& on = hull.body.faces()[face].vertices;
   const IntegerVector& corner = hull.vertices[on[0]];

@@ -78,6 +78,10 @@ Difference make_difference(const Configuration& configuration);
 /// larger.
 Integer sum_of_sizes(const Difference& difference);
 
+/// Are the faces exactly plane, and all angles between them and between their edges below 180°? Who
+/// makes a body of faces of his own knows them only to within rounding. False for polygons of more
+/// than three corners.
+bool has_exact_faces(const Difference::Hull& hull);
 /// The outward normal of a hull's face, of any length.
 IntegerVector face_normal(const Difference::Hull& hull, int face);
 /// From the first vertex of a hull's edge to the second.

@@ -81,31 +81,6 @@ Faces faces_of_polyhedron(const std::vector<Point>& points) {
   return faces;
 }
 
-/// Are the faces exactly plane, and all angles between them and between their edges below 180°?
-bool is_exact(const Convex& body) {
-  if (body.vertices().size() == 3) return true;
-  if (body.is_flat()) return false;
-  const auto side = [&](const Convex::Face& face, int v) {
-    const auto at = [&](int i) { return exact_point(body.vertices()[i]); };
-    const auto& on = face.vertices;
-    return CGAL::orientation(at(on[0]), at(on[1]), at(on[2]), at(v));
-  };
-  std::vector<int> edges_at(body.vertices().size());
-  for (const Convex::Edge& edge : body.edges()) {
-    for (const int v : edge.vertices) ++edges_at[v];
-    const auto& beside = body.faces()[edge.faces[1]].vertices;
-    const int beyond = *std::find_if(beside.begin(), beside.end(), [&](int v) {
-      return v != edge.vertices[0] && v != edge.vertices[1];
-    });
-    if (side(body.faces()[edge.faces[0]], beyond) != CGAL::NEGATIVE) return false;
-  }
-  return std::all_of(edges_at.begin(), edges_at.end(), [](int edges) { return edges > 2; }) &&
-         std::all_of(body.faces().begin(), body.faces().end(), [&](const Convex::Face& face) {
-           return std::all_of(face.vertices.begin(), face.vertices.end(),
-                              [&](int v) { return side(face, v) == CGAL::COPLANAR; });
-         });
-}
-
 }  // namespace
 
 Convex convex_hull(const std::vector<Vec3>& given) {
@@ -151,10 +126,6 @@ Convex convex_hull(const std::vector<Vec3>& given) {
   }
   std::sort(indices.begin(), indices.end());
   return {std::move(vertices), std::move(indices)};
-}
-
-Convex exact_hull(const Convex& body) {
-  return is_exact(body) ? body : convex_hull(body.vertices());
 }
 
 }  // namespace touchstone::oracle

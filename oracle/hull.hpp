@@ -14,8 +14,4 @@ namespace touchstone::oracle {
 /// Convex::max_vertices of them, or all on one line.
 Convex convex_hull(const std::vector<Vec3>& points);
 
-/// The body itself if its faces are exactly plane and convex, and else the hull of its vertices:
-/// whoever makes a body of faces of his own knows them only to within rounding.
-Convex exact_hull(const Convex& body);
-
 }  // namespace touchstone::oracle

@@ -213,17 +213,5 @@ TEST(Hull, SaysWhatPointsAreNotOne) {
             "vertices[2] is not finite: must be finite");
 }
 
-TEST(Hull, OfABodyWithFacesToWithinRoundingIsMadeExact) {
-  std::vector<Vec3> points = corners_of_box({1, 1, 1});
-  const Convex exact = convex_hull(points);
-  EXPECT_EQ(&exact_hull(exact).vertices(), &exact.vertices()) << "a copy shares what it holds";
-  std::vector<std::vector<int>> faces;
-  for (const Convex::Face& face : exact.faces()) faces.push_back(face.vertices);
-  points[7].z() = std::nextafter(1.0, 2.0);
-  const Convex rounded(points, faces);
-  EXPECT_EQ(rounded.faces().size(), 6u);
-  EXPECT_EQ(exact_hull(rounded).faces().size(), 7u);
-}
-
 }  // namespace
 }  // namespace touchstone::oracle

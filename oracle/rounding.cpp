@@ -77,13 +77,13 @@ Convex rounded(const Convex& body, const Grid& lengths, mpq_class& error) {
     for (int i = 0; i < 3; ++i) moved += change(v[i], to[i]);
     farthest = std::max(farthest, moved);
   }
-  if (farthest == 0) return exact_hull(body);
+  if (farthest == 0) return body;
   try {
     Convex hull = convex_hull(vertices);
     error += farthest;
     return hull;
   } catch (const InvalidInput&) {
-    return exact_hull(body);
+    return body;
   }
 }
 

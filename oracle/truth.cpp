@@ -16,6 +16,7 @@
 
 #include "oracle/critical_direction.hpp"
 #include "oracle/enclosure.hpp"
+#include "oracle/hull.hpp"
 #include "oracle/rounding.hpp"
 #include "reference/invalid_input.hpp"
 
@@ -248,7 +249,12 @@ void set_normals(const Difference& difference, const Shape& b, const BallDiffere
   // As a function of vectors of any length g is concave and homogeneous, so that two normals of gap
   // zero make the whole arc between them optimal.
   const bool touching = truth.signed_distance.lo <= 0 && 0 <= truth.signed_distance.hi;
-  if (touching && truth.normals.size() > 1) truth.families = {arc_between(truth.normals)};
+  if (touching && truth.normals.size() > 1) {
+    const NormalFamily arc = arc_between(truth.normals);
+    // Opposite normals reach zero only if a body is so thin that nothing tells its widths from it.
+    const bool are_opposite = (arc.ends[0] + arc.ends[1]).norm() < same_normal;
+    if (!are_opposite) truth.families = {arc};
+  }
   truth.ties = !truth.families.empty()    ? Ties::continuum
                : truth.normals.size() > 1 ? Ties::finite
                                           : Ties::unique;
@@ -313,9 +319,15 @@ Float error_in_units(const RoundedConfiguration& question, const Difference& dif
   return error == 0 ? Float() : Ball(error).upper_end();
 }
 
+Difference exact_difference(const Configuration& c) {
+  Difference difference = make_difference(c);
+  if (!difference.hull || has_exact_faces(*difference.hull)) return difference;
+  return make_difference({c.a, c.pose_a, convex_hull(difference.hull->body.vertices()), c.pose_b});
+}
+
 /// None if the rounding of `question` leaves the answer open.
 std::optional<Truth> truth_of(const RoundedConfiguration& question, const Request& wanted) {
-  Difference difference = make_difference(question.configuration);
+  Difference difference = exact_difference(question.configuration);
   const auto far = FarBodies::brought_nearer(difference, wanted.resolution);
   const double size = larger_size(wanted.configuration);
   const GridCell cell(size, wanted.width);
