@@ -116,7 +116,7 @@ std::vector<int> beside_edge(const Convex& body, const Convex::Edge& edge) {
 }  // namespace
 
 IntegerVector reduced_point(const Difference& difference, const CriticalSite& site) {
-  const IntegerVector q = reduced_point(difference, site.signs, segment_across(difference, site));
+  IntegerVector q = reduced_point(difference, site.signs, segment_across(difference, site));
   if (!difference.hull) return q;
   return q - difference.hull->vertices[vertex_of_hull(*difference.hull, site)];
 }
