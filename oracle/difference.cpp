@@ -238,7 +238,8 @@ Integer sum_of_sizes(const Difference& difference) {
 }
 
 bool has_exact_faces(const Difference::Hull& hull) {
-  const auto& [vertices, body, reach] = hull;
+  const std::vector<IntegerVector>& vertices = hull.vertices;
+  const Convex& body = hull.body;
   if (body.is_flat()) return vertices.size() == 3;
   std::vector<IntegerVector> normals;
   const auto above = [&](int face, int v) {
