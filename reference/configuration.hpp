@@ -21,7 +21,7 @@ inline constexpr Pair all_pairs[] = {Pair::plane, Pair::sphere, Pair::capsule, P
                                      Pair::box};
 /// And those that only given configurations have.
 inline constexpr Pair known_pairs[] = {Pair::plane,    Pair::sphere, Pair::capsule,
-                                      Pair::cylinder, Pair::box,    Pair::convex};
+                                       Pair::cylinder, Pair::box,    Pair::convex};
 
 Pair pair_of(const Configuration& configuration);
 /// "cylinder-plane", "cylinder-sphere", "cylinder-capsule", "cylinder-cylinder", "cylinder-box",
