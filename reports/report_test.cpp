@@ -192,7 +192,7 @@ TEST(Report, IsOfAPersonsOwnConfigurationsByTheirIds) {
   c.own[Pair::plane] = {{"on the floor", make_configuration(shallow)},
                         {"2", make_configuration(shallow)}};
   c.own[Pair::box] = {{"3", make_configuration({Pair::box, "rim-face", 1, 0})}};
-  c.own[Pair::convex] = {{"4", oracle::with_hull(c.own[Pair::box][0].configuration)}};
+  c.own[Pair::convex] = {{"4", with_hull(c.own[Pair::box][0].configuration)}};
   c.own_file = "poses.jsonl";
   const Report report = make_report(c, "x");
   EXPECT_EQ(report.configurations, 4u);
