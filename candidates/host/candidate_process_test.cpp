@@ -420,7 +420,8 @@ double weight(const Convex& body) {
 TEST(CandidateProcess, GivesEveryQuestionItsConvexBody) {
   std::vector<Configuration> asked;
   for (int i = 0; i < static_cast<int>(batch_size) + 5; ++i) {  // of neighbours some are the same
-    asked.push_back(beside(pyramid(3 + i / 2 % 5, 1 + i / 3)));
+    const int height = 1 + i / 3;
+    asked.push_back(beside(pyramid(3 + i / 2 % 5, height)));
   }
   asked[7] = beside(oracle::convex_hull({{0, 0, 1}, {1, 0, 1}, {0, 1, 1}}));
   asked[8] = standing;
