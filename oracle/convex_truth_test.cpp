@@ -102,7 +102,7 @@ class GridPoses {
   }
   Quaternion orientation() {
     for (;;) {
-      const Quaternion q(integer(-2, 2), integer(-2, 2), integer(-2, 2), integer(-2, 2));
+      Quaternion q(integer(-2, 2), integer(-2, 2), integer(-2, 2), integer(-2, 2));
       if (q.squaredNorm() > 0) return q;
     }
   }
@@ -437,13 +437,13 @@ TEST(ConvexTruth, NamesTheVerticesAsGivenWhereRoundingMergesSome) {
 
 TEST(ConvexTruth, NamesTheEdgeOfAPrismThatIsNearest) {
   const Convex wheel = prism(400, 1);
-  for (int i = 0; i < 400; i += 57) {
-    const Vec3 corner = wheel.vertices()[2 * i];
+  for (int first = 0; first < 800; first += 114) {
+    const Vec3 corner = wheel.vertices()[static_cast<std::size_t>(first)];
     const Configuration c{Cylinder(0x1p-40, 1),
                           Pose(Vec3(3 * corner.x(), 3 * corner.y(), 0), upright), wheel, Pose()};
     const Truth t = truth(c);
     ASSERT_EQ(t.normals.size(), 1u);
-    const std::vector<int> edge{2 * i, 2 * i + 1};
+    const std::vector<int> edge{first, first + 1};
     EXPECT_EQ(t.normals[0].support_b, edge);
   }
 }

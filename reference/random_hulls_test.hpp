@@ -156,7 +156,7 @@ inline Configuration with_hull(HullKind kind, Random& random) {
       const Vec3 place = random.toss() ? from + random.uniform(0, 1) * (to - from) : hull.middle();
       const Vec3 way = random.toss() ? face.normal : random.direction();
       const Vec3 centre = place + random.uniform(-0.2, 1.3) * (a.radius() + a.half_length()) * way;
-      const Configuration local{a, Pose(centre, orientation), hull, Pose()};
+      Configuration local{a, Pose(centre, orientation), hull, Pose()};
       if (random.toss()) return local;
       const Eigen::Quaterniond turn = random.turn();
       return {a, Pose(turn * centre, turn * orientation), hull, Pose(Vec3::Zero(), turn)};
