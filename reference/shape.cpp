@@ -29,6 +29,20 @@ double checked_size(const char* field, double value) {
   return value;
 }
 
+/// A hull grows by it, by any length.
+constexpr double max_rounding = std::numeric_limits<double>::max();
+
+/// Not minus zero, whose sign JSON would show.
+double checked_rounding(double value, double most) {
+  if (!(value >= 0 && value <= most)) {
+    throw InvalidInput("rounding", text_of(value),
+                       most < max_rounding
+                           ? "must be 0 to the smallest half extent, " + text_of(most)
+                           : "must not be negative, and finite");
+  }
+  return std::abs(value);
+}
+
 double checked_finite(const std::string& field, double value) {
   if (!std::isfinite(value)) throw InvalidInput(field, text_of(value), "must be finite");
   return value;
@@ -64,13 +78,16 @@ Capsule::Capsule(double radius, double half_length)
     : radius_(checked_size("radius", radius)),
       half_length_(checked_size("half_length", half_length)) {}
 
-Cylinder::Cylinder(double radius, double half_length)
+Cylinder::Cylinder(double radius, double half_length, double rounding)
     : radius_(checked_size("radius", radius)),
-      half_length_(checked_size("half_length", half_length)) {}
+      half_length_(checked_size("half_length", half_length)),
+      rounding_(checked_rounding(rounding, std::min(radius, half_length))) {}
 
-Box::Box(const Vec3& half_extents) : half_extents_(half_extents) {
+Box::Box(const Vec3& half_extents, double rounding)
+    : half_extents_(half_extents), rounding_(rounding) {
   constexpr const char* fields[] = {"half_extents[0]", "half_extents[1]", "half_extents[2]"};
   for (int i = 0; i < 3; ++i) checked_size(fields[i], half_extents[i]);
+  rounding_ = checked_rounding(rounding, half_extents.minCoeff());
 }
 
 namespace {
@@ -112,7 +129,8 @@ std::vector<Convex::Edge> edges_of(const std::vector<Convex::Face>& faces) {
 
 }  // namespace
 
-Convex::Convex(std::vector<Vec3> vertices, std::vector<std::vector<int>> faces) {
+Convex::Convex(std::vector<Vec3> vertices, std::vector<std::vector<int>> faces, double rounding)
+    : rounding_(checked_rounding(rounding, max_rounding)) {
   const auto at = [](const char* name, std::size_t i) {
     return std::string(name) + '[' + std::to_string(i) + ']';
   };
@@ -175,11 +193,11 @@ Convex::Convex(std::vector<Vec3> vertices, std::vector<std::vector<int>> faces) 
   // A volume, of which rounding is some ulp of the size's cube, however thin a face is; places are
   // rounded as parts of how far they are from the origin.
   constexpr double part = 1e-13;
-  const double rounding = part * (1 + data->middle.cwiseAbs().maxCoeff() / largest);
+  const double tolerance = part * (1 + data->middle.cwiseAbs().maxCoeff() / largest);
   for (std::size_t f = 0; f < areas.size(); ++f) {
     const Vec3& on_face = unit[data->faces[f].vertices.front()];
     for (std::size_t i = 0; i < count; ++i) {
-      if ((unit[i] - on_face).dot(areas[f]) > rounding) {
+      if ((unit[i] - on_face).dot(areas[f]) > tolerance) {
         refuse_faces(at("faces", f), at("vertices", i) + " is outside",
                      "must have all vertices on its inner side");
       }
@@ -193,6 +211,10 @@ Convex::Convex(std::vector<Vec3> vertices, std::vector<std::vector<int>> faces) 
   data_ = std::move(data);
 }
 
+Convex Convex::rounded(double rounding) const {
+  return {data_, checked_rounding(rounding, max_rounding)};
+}
+
 Convex Convex::scaled(int exponent) const {
   const auto scale = [exponent](double x) { return std::ldexp(x, exponent); };
   auto data = std::make_shared<Data>(*data_);
@@ -201,12 +223,32 @@ Convex Convex::scaled(int exponent) const {
   data->middle = data->middle.unaryExpr(scale).eval();
   data->smallest_half_extent = scale(data->smallest_half_extent);
   data->tables = std::make_shared<ConvexTables>(data->tables->scaled(exponent));
-  return Convex(std::move(data));
+  return {std::move(data), scale(rounding_)};
 }
 
 const char* shape_name(const Shape& shape) {
   constexpr const char* names[] = {"cylinder", "plane", "sphere", "capsule", "box", "convex"};
   return names[shape.index()];
+}
+
+double rounding_of(const Shape& shape) {
+  return std::visit(
+      [](const auto& s) {
+        if constexpr (requires { s.rounding(); }) return s.rounding();
+        return 0.0;
+      },
+      shape);
+}
+
+Shape with_rounding(const Shape& shape, double rounding) {
+  return std::visit(
+      Overloaded{[=](const Cylinder& s) -> Shape {
+                   return Cylinder(s.radius(), s.half_length(), rounding);
+                 },
+                 [=](const Box& s) -> Shape { return Box(s.half_extents(), rounding); },
+                 [=](const Convex& s) -> Shape { return s.rounded(rounding); },
+                 [](const auto& s) -> Shape { return s; }},
+      shape);
 }
 
 double smallest_half_extent(const Shape& shape) {
@@ -216,7 +258,7 @@ double smallest_half_extent(const Shape& shape) {
                  [](const Sphere& s) { return s.radius(); },
                  [](const Capsule& s) { return s.radius(); },
                  [](const Box& s) { return s.half_extents().minCoeff(); },
-                 [](const Convex& s) { return s.smallest_half_extent(); }},
+                 [](const Convex& s) { return s.smallest_half_extent() + s.rounding(); }},
       shape);
 }
 

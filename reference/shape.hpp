@@ -19,6 +19,12 @@ struct ConvexTables;  // convex_tables.hpp
 // Shapes, each in its own body frame. Lengths are in metres. A constructor throws InvalidInput
 // when a size is NaN, infinite, zero or negative. A disc (half_length 0) and a segment (radius 0)
 // are refused like every other zero size: they have no interior, so penetration has no meaning.
+//
+// A rounding rounds edges and corners by a ball of that radius: the body is all points within it
+// of a core. Cylinder and box keep their outer sizes, so that the core's are smaller by the
+// rounding, which is at most the smallest of them: a core may be a disc, a segment or a point. A
+// hull is the core itself, and the body larger by the rounding: what is left of a hull when all of
+// its faces move inward has corners that no doubles hold, and of a polygon nothing is left.
 
 /// The half-space normal·x <= displacement, in the body frame. The normal needs no unit length;
 /// it must not be zero.
@@ -62,27 +68,37 @@ class Capsule {
 /// Solid circular cylinder about the local z axis; the caps are at z = ±half_length.
 class Cylinder {
  public:
-  Cylinder(double radius, double half_length);
+  Cylinder(double radius, double half_length, double rounding = 0);
   double radius() const { return radius_; }
   double half_length() const { return half_length_; }
+  double rounding() const { return rounding_; }
+  /// Those of the core, rounded to doubles.
+  double core_radius() const { return radius_ - rounding_; }
+  double core_half_length() const { return half_length_ - rounding_; }
 
  private:
   double radius_;
   double half_length_;
+  double rounding_;
 };
 
 class Box {
  public:
-  explicit Box(const Vec3& half_extents);
+  explicit Box(const Vec3& half_extents, double rounding = 0);
   const Vec3& half_extents() const { return half_extents_; }
+  double rounding() const { return rounding_; }
+  /// Those of the core, rounded to doubles.
+  Vec3 core_half_extents() const { return half_extents_.array() - rounding_; }
 
  private:
   Vec3 half_extents_;
+  double rounding_;
 };
 
 /// A convex polyhedron with its vertices in the body frame, which need not be about the origin; or
 /// a convex polygon in space, as a triangle, which has two faces that look in opposite directions.
-/// Copies share what they hold.
+/// Copies share what they hold. What it says of vertices and sizes is the hull's, without its
+/// rounding.
 ///
 /// The faces are given, because only exact arithmetic finds them for certain (oracle/hull.hpp does,
 /// of any points): all vertices of a plane face are in one face, and every vertex is a corner.
@@ -105,8 +121,8 @@ class Convex {
   /// unless there are 3 to max_vertices finite vertices, each of them in a face, the faces have at
   /// least three different ones each and close (every edge has two faces, which run through it in
   /// opposite directions; vertices - edges + faces = 2), and no vertex is outside a face by more
-  /// than rounding.
-  Convex(std::vector<Vec3> vertices, std::vector<std::vector<int>> faces);
+  /// than rounding; and for a rounding that is negative or not finite.
+  Convex(std::vector<Vec3> vertices, std::vector<std::vector<int>> faces, double rounding = 0);
 
   const std::vector<Vec3>& vertices() const { return data_->vertices; }
   const std::vector<Face>& faces() const { return data_->faces; }
@@ -121,6 +137,9 @@ class Convex {
   /// Half of the smallest width over the local axes; of a polygon, half the side of a square of its
   /// area.
   double smallest_half_extent() const { return data_->smallest_half_extent; }
+  double rounding() const { return rounding_; }
+  /// The same hull with another rounding. Throws as the constructor does.
+  Convex rounded(double rounding) const;
   /// The same body with all lengths times a power of two.
   Convex scaled(int exponent) const;
   /// What our routine looks up.
@@ -136,8 +155,10 @@ class Convex {
     double smallest_half_extent;
     std::shared_ptr<const ConvexTables> tables;
   };
-  explicit Convex(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
+  Convex(std::shared_ptr<const Data> data, double rounding)
+      : data_(std::move(data)), rounding_(rounding) {}
   std::shared_ptr<const Data> data_;
+  double rounding_;
 };
 
 using Shape = std::variant<Cylinder, Plane, Sphere, Capsule, Box, Convex>;
@@ -145,10 +166,16 @@ using Shape = std::variant<Cylinder, Plane, Sphere, Capsule, Box, Convex>;
 /// Name as in files: "cylinder", "plane", "sphere", "capsule", "box", "convex".
 const char* shape_name(const Shape& shape);
 
+/// The rounding of a cylinder, box or convex body; that of others is zero.
+double rounding_of(const Shape& shape);
+/// The same cylinder, box or convex body with another rounding; others as they are. Throws as their
+/// constructors do.
+Shape with_rounding(const Shape& shape, double rounding);
+
 /// Half of the shape's smallest (largest) width over its own axes, in metres. A plane has none:
 /// the smallest is infinite and the largest zero, so that it never decides a minimum or maximum. A
-/// capsule's largest is the largest double where the sum of its two lengths overflows. Of a polygon
-/// in space the smallest is half the side of a square of its area.
+/// sum of two lengths that overflows is the largest double. Of a polygon in space the smallest is
+/// half the side of a square of its area, with its rounding.
 double smallest_half_extent(const Shape& shape);
 double largest_half_extent(const Shape& shape);
 inline double largest_half_extent(const Sphere& s) { return s.radius(); }
@@ -159,6 +186,8 @@ inline double largest_half_extent(const Cylinder& s) {
   return s.radius() > s.half_length() ? s.radius() : s.half_length();
 }
 inline double largest_half_extent(const Box& s) { return s.half_extents().maxCoeff(); }
-inline double largest_half_extent(const Convex& s) { return s.half_extents().maxCoeff(); }
+inline double largest_half_extent(const Convex& s) {
+  return std::min(s.half_extents().maxCoeff() + s.rounding(), std::numeric_limits<double>::max());
+}
 
 }  // namespace touchstone
