@@ -10,7 +10,7 @@
 namespace touchstone::oracle {
 namespace {
 
-/// Is the gap along n exactly zero? All terms are multiplied by norm.
+/// Is the gap along n proven to be exactly zero? All terms are multiplied by norm.
 bool gap_is_zero(const Difference& difference, const IntegerVector& n) {
   Integer a = dot(difference.d, n);
   if (difference.hull) {
@@ -27,8 +27,8 @@ bool gap_is_zero(const Difference& difference, const IntegerVector& n) {
   }
   squares.push_back(difference.inflation * difference.inflation * difference.norm *
                     difference.norm * dot(n, n));
-  // With two discs the inflation is zero, so that at most two squares remain.
   std::erase(squares, 0);
+  if (squares.size() > 2) return false;  // not known: of two discs and a rounding
   squares.resize(2);
   return is_root_sum(a, squares[0], squares[1]);
 }
@@ -126,7 +126,7 @@ std::vector<IntegerVector> inward(const Difference& difference, const CriticalSi
   const Difference::Segment* const across = segment_across(difference, site);
   for (std::size_t i = 0; i < difference.segments.size(); ++i) {
     const auto& segment = difference.segments[i];
-    if (&segment == across) continue;
+    if (&segment == across || segment.half_length == 0) continue;
     result.push_back((site.signs >> i & 1U) ? segment.frame.axis : -segment.frame.axis);
   }
   if (!difference.hull) return result;

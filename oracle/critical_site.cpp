@@ -12,12 +12,12 @@ namespace {
 
 using Kind = CriticalSite::Kind;
 
-/// Index of the disc that is not perpendicular to this segment, if there is one.
+/// Index of the disc that is not perpendicular to this segment and no point, if there is one.
 std::optional<unsigned> tilted_disc(const Difference& difference, unsigned segment) {
   for (unsigned i = 0; i < difference.discs.size(); ++i) {
-    if (!parallel(difference.discs[i].frame.axis, difference.segments[segment].frame.axis)) {
-      return i;
-    }
+    const Difference::Disc& disc = difference.discs[i];
+    if (disc.radius == 0) continue;
+    if (!parallel(disc.frame.axis, difference.segments[segment].frame.axis)) return i;
   }
   return std::nullopt;
 }

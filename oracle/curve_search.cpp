@@ -173,7 +173,7 @@ LineSearch::LineSearch(const IntervalDifference& difference, const Difference& e
 LineSearch::LineSearch(const IntervalDifference& difference, const Difference& exact, unsigned edge,
                        const IntegerVector& direction, const IntegerVector& q,
                        const IntervalVector& from, const IntervalVector& to)
-    : line_(edge), inflation_(0), tilted_disc_(0), is_flat_(direction.z == 0) {
+    : line_(edge), inflation_(difference.inflation), tilted_disc_(0), is_flat_(direction.z == 0) {
   // e crosses A's axis z and the edge w, f = w × e: the axis is seen along f. What q has along them
   // is exact before it is rounded: near the edge it may be small against the bodies.
   const IntegerVector e_exact{-direction.y, direction.x, 0};
@@ -408,11 +408,13 @@ bool RimSearch::is_open(const Piece& piece, GapThreshold& threshold) const {
   const Interval apart_radial = radius1_ - along_radius(q_) - radius2_ * along_radius(y);
   const Interval apart_up = side1_ * (-q_.z - radius2_ * y.z);
   const Interval apart_u = side2_ * p.w_u;
-  // The direction from rim 2's point to rim 1's has the gap −distance, its opposite +distance.
+  // The direction from rim 2's point to rim 1's has the gap −distance, its opposite +distance, both
+  // less the inflation.
   // The comparisons are written so that NaN excludes nothing.
-  const bool not_inside = threshold.is_above(-distance) || apart_radial.sup() < 0 ||
+  const Interval inflation = difference_.inflation;
+  const bool not_inside = threshold.is_above(-distance - inflation) || apart_radial.sup() < 0 ||
                           beyond.inf() > 0 || apart_up.sup() < 0 || apart_u.sup() < 0;
-  const bool not_outside = threshold.is_above(distance) || apart_radial.inf() > 0 ||
+  const bool not_outside = threshold.is_above(distance - inflation) || apart_radial.inf() > 0 ||
                            beyond.sup() < 0 || apart_up.inf() > 0 || apart_u.inf() > 0;
   if (not_inside && not_outside) return false;
   sample(piece, threshold);

@@ -81,6 +81,14 @@ void add_disc(Difference& difference, Frame frame, const Integer& radius) {
   difference.discs.push_back({std::move(frame), radius});
 }
 
+/// Leaves out one of two discs that is a point: the rims of two discs are circles.
+void leave_out_point(Difference& difference) {
+  auto& discs = difference.discs;
+  const auto is_point = [](const Difference::Disc& disc) { return disc.radius == 0; };
+  const auto point = std::find_if(discs.begin(), discs.end(), is_point);
+  if (discs.size() == 2 && point != discs.end()) discs.erase(point);
+}
+
 /// Divides by the common factor of all entries, which is large when the orientations are equal.
 void reduce(Integer& norm, std::array<IntegerVector, 3>& columns) {
   Integer g = norm;
@@ -102,11 +110,17 @@ void reduce(Integer& norm, std::array<IntegerVector, 3>& columns) {
 struct Lengths {
   DyadicScale scale;
 
-  void include(const Cylinder& s) { scale.include(Vec3(s.radius(), s.half_length(), 0)); }
+  void include(const Cylinder& s) {
+    scale.include(Vec3(s.radius(), s.half_length(), s.rounding()));
+  }
   void include(const Capsule& s) { scale.include(Vec3(s.radius(), s.half_length(), 0)); }
   void include(const Sphere& s) { scale.include(s.radius()); }
-  void include(const Box& s) { scale.include(s.half_extents()); }
+  void include(const Box& s) {
+    scale.include(s.half_extents());
+    scale.include(s.rounding());
+  }
   void include(const Convex& s) {
+    scale.include(s.rounding());
     for (const Vec3& v : s.vertices()) scale.include(v);
   }
   void include(const Plane& s) { scale.include(s.displacement()); }
@@ -195,23 +209,27 @@ Difference make_difference(const Configuration& c) {
   difference.per_metre = length.factor() * finer;
 
   const auto size = [&](double value) { return Integer(length(value) * finer); };
+  const Integer rounding_a = size(c.a.rounding()), rounding_b = size(rounding_of(c.b));
+  difference.inflation = rounding_a + rounding_b;
   const Frame frame_a{{0, 0, norm}, {norm, 0, 0}, {0, norm, 0}};
-  add_segment(difference, frame_a, size(c.a.half_length()));
-  add_disc(difference, frame_a, size(c.a.radius()));
+  add_segment(difference, frame_a, size(c.a.half_length()) - rounding_a);
+  add_disc(difference, frame_a, size(c.a.radius()) - rounding_a);
 
   const Frame frame_b{axes_b[2], axes_b[0], axes_b[1]};
   if (const auto* sphere = std::get_if<Sphere>(&c.b)) {
-    difference.inflation = size(sphere->radius());
+    difference.inflation += size(sphere->radius());
   } else if (const auto* capsule = std::get_if<Capsule>(&c.b)) {
     add_segment(difference, frame_b, size(capsule->half_length()));
-    difference.inflation = size(capsule->radius());
+    difference.inflation += size(capsule->radius());
   } else if (const auto* cylinder = std::get_if<Cylinder>(&c.b)) {
-    add_segment(difference, frame_b, size(cylinder->half_length()));
-    add_disc(difference, frame_b, size(cylinder->radius()));
+    add_segment(difference, frame_b, size(cylinder->half_length()) - rounding_b);
+    add_disc(difference, frame_b, size(cylinder->radius()) - rounding_b);
+    leave_out_point(difference);
   } else if (const auto* box = std::get_if<Box>(&c.b)) {
     for (int i = 0; i < 3; ++i) {
       const Frame edge{axes_b[i], axes_b[(i + 1) % 3], axes_b[(i + 2) % 3]};
-      add_segment(difference, edge, size(box->half_extents()[i]));
+      const Integer half = size(box->half_extents()[i]) - rounding_b;
+      if (half != 0) add_segment(difference, edge, half);
     }
   } else if (const auto* body = std::get_if<Convex>(&c.b)) {
     const auto in_frame = [&](const IntegerVector& v) {

@@ -31,7 +31,9 @@ inline constexpr std::size_t max_discs = 2;
 ///   g(n) = d·n − Σ half_length |axis·n| − Σ radius |axis × n| − inflation,
 ///   d = centre A − centre B,
 ///
-/// less the largest v·n over the vertices v of a hull, if B is one.
+/// less the largest v·n over the vertices v of a hull, if B is one. A rounded body is its core and
+/// part of the ball: of a core that is a segment or a point a disc of radius zero may be left,
+/// whose rim is a point.
 ///
 /// All vectors are in body A's frame. The doubles of a pose make all directions rational: for a
 /// quaternion q of integers, R(q) |q|² is an integer matrix. Parallel segments and parallel discs
@@ -164,6 +166,7 @@ class BallDifference {
 
   /// The unit axis of a segment.
   const BallVector& axis(std::size_t segment) const { return segments_[segment].axis; }
+  const Ball& inflation() const { return inflation_; }
 
  private:
   struct Segment {

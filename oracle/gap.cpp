@@ -27,7 +27,7 @@ Ball gap_above_column(const Difference& difference, const BallDifference& balls,
   const Ball height = balls.along(up).centre_distance;
   const Ball radius(difference.discs.front().radius);
   const Ball half_length(difference.segments.front().half_length);
-  const Ball circumradius = sqrt(square(radius) + square(half_length));
+  const Ball circumradius = sqrt(square(radius) + square(half_length)) + Ball(difference.inflation);
   const Ball below = (abs(cosine) - cosine) * circumradius;  // twice max(0, −cos α) times ρ
   return height * cosine - balls.along(n).half_width - circumradius * sine - below;
 }

@@ -83,7 +83,7 @@ Faces faces_of_polyhedron(const std::vector<Point>& points) {
 
 }  // namespace
 
-Convex convex_hull(const std::vector<Vec3>& given) {
+Convex convex_hull(const std::vector<Vec3>& given, double rounding) {
   if (given.size() > Convex::max_vertices) {
     throw InvalidInput("vertices", std::to_string(given.size()) + " points",
                        "must be at most " + std::to_string(Convex::max_vertices));
@@ -125,7 +125,7 @@ Convex convex_hull(const std::vector<Vec3>& given) {
     std::rotate(on.begin(), std::min_element(on.begin(), on.end()), on.end());
   }
   std::sort(indices.begin(), indices.end());
-  return {std::move(vertices), std::move(indices)};
+  return {std::move(vertices), std::move(indices), rounding};
 }
 
 }  // namespace touchstone::oracle

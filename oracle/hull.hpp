@@ -11,7 +11,7 @@ namespace touchstone::oracle {
 /// edge and repeated ones are dropped. Points in one plane give a polygon with two faces.
 ///
 /// Throws InvalidInput of the field "vertices" for points that are not finite, more than
-/// Convex::max_vertices of them, or all on one line.
-Convex convex_hull(const std::vector<Vec3>& points);
+/// Convex::max_vertices of them, or all on one line; and as Convex does for its rounding.
+Convex convex_hull(const std::vector<Vec3>& points, double rounding = 0);
 
 }  // namespace touchstone::oracle

@@ -135,11 +135,14 @@ void StationaryPair::enclose(const BallVector& y, std::vector<DirectionBound>& o
     if (!norm(across).contains_zero()) n = across;
   }
   if (norm(n).contains_zero()) {
-    // At this precision the rims may touch with parallel tangents. Then the gap is at most their
-    // distance, if the two quarter circles of outward normals intersect at all.
+    // At this precision the rims may touch with parallel tangents. Then the gap of what is not
+    // inflated is at most their distance, if the two quarter circles of outward normals intersect
+    // at all.
     const BallVector inner = radial_ + up_[0];
     const BallVector outer = up_[1] - (Ball(1) / radius2_) * y;
-    if (!dot(inner, outer).is_negative()) out.push_back({distance, std::nullopt});
+    if (!dot(inner, outer).is_negative()) {
+      out.push_back({distance - difference_.inflation(), std::nullopt});
+    }
     return;
   }
   if (is_outward(n, y) != Certainty::no) out.push_back({difference_.gap(n), n});
@@ -235,8 +238,10 @@ class RimRimDirection : public CriticalDirection {
     pair(balls).enclose(t_.branch(), out);
   }
 
-  // Touching rims share a point of both bodies, so that no gap is above zero.
+  // Touching rims share a point of both bodies, so that no gap is above zero. Rims of rounded
+  // bodies touch nothing.
   ZeroGap zero_gap(const Difference& difference) override {
+    if (difference.inflation != 0) return ZeroGap::unknown;
     // Rim 1's point lies on rim 2: in its plane, and at its radius.
     const Integer radius_squared = rims_.norm * rims_.norm * rims_.radius2 * rims_.radius2;
     const Polynomial beyond = rims_.distance_squared() - radius_squared * Polynomial{1, 0, 1};

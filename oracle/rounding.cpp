@@ -64,8 +64,10 @@ struct Reach {
 };
 
 /// The hull of rounded vertices; of the given ones if rounding puts them on one line. Adds to
-/// `error` how far a vertex moves at most.
+/// `error` how far a vertex moves at most, and by how much the rounding changes.
 Convex rounded(const Convex& body, const Grid& lengths, mpq_class& error) {
+  const double rounding = body.rounding() > 0 ? lengths.nearest_size(body.rounding()) : 0;
+  error += change(body.rounding(), rounding);
   std::vector<Vec3> vertices;
   mpq_class farthest = 0;
   for (const Vec3& v : body.vertices()) {
@@ -77,13 +79,13 @@ Convex rounded(const Convex& body, const Grid& lengths, mpq_class& error) {
     for (int i = 0; i < 3; ++i) moved += change(v[i], to[i]);
     farthest = std::max(farthest, moved);
   }
-  if (farthest == 0) return body;
+  if (farthest == 0) return body.rounded(rounding);
   try {
-    Convex hull = convex_hull(vertices);
+    Convex hull = convex_hull(vertices, rounding);
     error += farthest;
     return hull;
   } catch (const InvalidInput&) {
-    return body;
+    return body.rounded(rounding);
   }
 }
 

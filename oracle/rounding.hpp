@@ -26,8 +26,9 @@ inline constexpr int kept_bits = 192;
 /// 1e-300 would make them a hundred times longer, and their roots that much harder to isolate.
 ///
 /// The error follows from Lipschitz bounds of the gap along any one direction: 1 in the offset of
-/// the centres and in every size; a rotation of quaternion q to that of q' moves no point by more
-/// than 2 |q' − q| / |q| times its distance from the centre, as sin(angle/2) <= |q' − q| / |q|.
+/// the centres, in every size and in a rounding, which makes the core as much smaller; a rotation
+/// of quaternion q to that of q' moves no point by more than 2 |q' − q| / |q| times its distance
+/// from the centre, as sin(angle/2) <= |q' − q| / |q|.
 ///
 /// Against a plane or a sphere no polynomial arises, and nothing is rounded. A convex body becomes
 /// the hull of its rounded vertices, of which there may be fewer; none of them is rounded if that
@@ -40,18 +41,23 @@ template <class Size>
 struct Resized {
   Size size;
 
-  Cylinder operator()(const Cylinder& s) const { return {size(s.radius()), size(s.half_length())}; }
+  Cylinder operator()(const Cylinder& s) const {
+    return {size(s.radius()), size(s.half_length()), rounding(s.rounding())};
+  }
   Capsule operator()(const Capsule& s) const { return {size(s.radius()), size(s.half_length())}; }
   Sphere operator()(const Sphere& s) const { return Sphere(size(s.radius())); }
   Box operator()(const Box& s) const {
     const Vec3& h = s.half_extents();
-    return Box(Vec3(size(h.x()), size(h.y()), size(h.z())));
+    return Box(Vec3(size(h.x()), size(h.y()), size(h.z())), rounding(s.rounding()));
   }
   Convex operator()(const Convex& s) const { return s; }  ///< its vertices are not sizes
   Plane operator()(const Plane& s) const { return s; }
   Shape operator()(const Shape& shape) const {
     return std::visit([this](const auto& s) -> Shape { return (*this)(s); }, shape);
   }
+
+  /// No rounding stays none. A size that is at least another one must stay so.
+  double rounding(double radius) const { return radius > 0 ? size(radius) : 0; }
 };
 template <class Size>
 Resized(Size) -> Resized<Size>;  // clang 14 finds none by itself

@@ -247,9 +247,13 @@ void set_normals(const Difference& difference, const Shape& b, const BallDiffere
     }
   }
   // As a function of vectors of any length g is concave and homogeneous, so that two normals of gap
-  // zero make the whole arc between them optimal.
-  const bool touching = truth.signed_distance.lo <= 0 && 0 <= truth.signed_distance.hi;
-  if (touching && truth.normals.size() > 1) {
+  // zero make the whole arc between them optimal; of rounded bodies, two along which their cores
+  // touch. Capsules and spheres have their families by themselves.
+  mpq_class inflation(difference.inflation, difference.per_metre);
+  inflation.canonicalize();
+  const auto& [lo, hi] = truth.signed_distance;
+  const bool touching = lo + inflation <= 0 && 0 <= hi + inflation;
+  if (touching && truth.normals.size() > 1 && (inflation == 0 || truth.families.empty())) {
     const NormalFamily arc = arc_between(truth.normals);
     // Opposite normals reach zero only if a body is so thin that nothing tells its widths from it.
     const bool are_opposite = (arc.ends[0] + arc.ends[1]).norm() < same_normal;
@@ -322,7 +326,8 @@ Float error_in_units(const RoundedConfiguration& question, const Difference& dif
 Difference exact_difference(const Configuration& c) {
   Difference difference = make_difference(c);
   if (!difference.hull || has_exact_faces(*difference.hull)) return difference;
-  return make_difference({c.a, c.pose_a, convex_hull(difference.hull->body.vertices()), c.pose_b});
+  const Convex& body = difference.hull->body;
+  return make_difference({c.a, c.pose_a, convex_hull(body.vertices(), body.rounding()), c.pose_b});
 }
 
 /// None if the rounding of `question` leaves the answer open.

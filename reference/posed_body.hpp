@@ -53,8 +53,26 @@ struct PosedConvex {
   const Convex& body;
 };
 
+// A rounded body is posed as its core (pair.hpp adds the rounding to the answers). Lengths of zero,
+// of a core that is a disc, a segment or a point, are made 1e-15 of the body's: the routines divide
+// by them, and so little moves no distance by more than rounding does.
+
+inline double core_length(double length, double rounding, double lengths) {
+  constexpr double vanishing = 1e-15;
+  return std::max(length - rounding, vanishing * lengths);
+}
+/// Of any shape.
+inline double rounding_in(const auto& s) {
+  if constexpr (requires { s.rounding(); }) return s.rounding();
+  return 0;
+}
+
 inline PosedCylinder posed(const Cylinder& s, const Pose& pose, const auto& centre) {
-  return {centre, s.radius(), s.half_length(), pose.rotation()};
+  const double r = s.radius(), h = s.half_length(), rounding = s.rounding();
+  if (rounding == 0) [[likely]]
+    return {centre, r, h, pose.rotation()};
+  return {centre, core_length(r, rounding, r + h), core_length(h, rounding, r + h),
+          pose.rotation()};
 }
 inline PosedPlane posed(const Plane& s, const Pose& pose, const auto& centre) {
   return {centre, pose.rotation() * s.unit_normal(), s.unit_displacement()};
@@ -66,7 +84,11 @@ inline PosedCapsule posed(const Capsule& s, const Pose& pose, const auto& centre
   return {centre, s.radius(), s.half_length(), pose.rotation()};
 }
 inline PosedBox posed(const Box& s, const Pose& pose, const auto& centre) {
-  return {centre, pose.rotation(), s.half_extents()};
+  const Vec3& e = s.half_extents();
+  if (s.rounding() == 0) [[likely]]
+    return {centre, pose.rotation(), e};
+  const auto of_core = [&](double x) { return core_length(x, s.rounding(), e.sum()); };
+  return {centre, pose.rotation(), {of_core(e.x()), of_core(e.y()), of_core(e.z())}};
 }
 inline PosedConvex posed(const Convex& s, const Pose& pose, const auto& centre) {
   return {centre, pose.rotation(), s};

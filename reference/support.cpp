@@ -13,7 +13,7 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 /// The support of the body as if its position were the origin.
 template <class Bounded>
 double centred_support(const Bounded& s, const Pose& pose, const Vec3& n) {
-  return reach(posed(s, pose, Vec3::Zero()), n);
+  return reach(posed(s, pose, Vec3::Zero()), n) + rounding_in(s);
 }
 double centred_support(const Plane& s, const Pose& pose, const Vec3& n) {
   const Vec3 local = pose.rotation().transpose() * n;

@@ -74,6 +74,8 @@ inline Interval larger(const Interval& x, const Interval& y) {
 // A configuration in any arithmetic: enclosed in intervals, exact in rationals, rounded in doubles.
 // Every shape but the half-space and the hull is the Minkowski sum of a box, a disc perpendicular
 // to the local z axis and a ball, any of which may be a point; a cylinder is a segment plus a disc.
+// Rounded bodies are their cores: balls added to two bodies take their radii from the gap along
+// every direction, and so from the signed distance.
 
 template <class T>
 struct Body {
@@ -87,6 +89,7 @@ template <class T>
 struct Bodies {
   Body<T> a, b;
   Vector<T> offset;  ///< centre A − centre B, world coordinates
+  T rounding{0};     ///< of both together: the signed distance is that of these less it
 };
 
 /// A share of one of a hull's vertices in a point.
@@ -144,8 +147,8 @@ struct Sizes {
   T unit;
 
   void operator()(const Cylinder& s) const {
-    body.half_extents.z() = T(s.half_length()) / unit;
-    body.disc_radius = T(s.radius()) / unit;
+    body.half_extents.z() = of_core(s.half_length(), s.rounding());
+    body.disc_radius = of_core(s.radius(), s.rounding());
   }
   void operator()(const Capsule& s) const {
     body.half_extents.z() = T(s.half_length()) / unit;
@@ -153,13 +156,17 @@ struct Sizes {
   }
   void operator()(const Sphere& s) const { body.ball_radius = T(s.radius()) / unit; }
   void operator()(const Box& s) const {
-    for (int i = 0; i < 3; ++i) body.half_extents[i] = T(s.half_extents()[i]) / unit;
+    for (int i = 0; i < 3; ++i) body.half_extents[i] = of_core(s.half_extents()[i], s.rounding());
   }
   void operator()(const Convex& s) const {
     const Vector<T> middle = as<T>(s.middle()) / unit;
     for (const Vec3& v : s.vertices()) body.vertices.push_back(as<T>(v) / unit - middle);
   }
   void operator()(const Plane&) const {}
+
+  /// Rounded down, as the lower end of an interval, where doubles round up, as they do beside
+  /// intervals.
+  T of_core(double size, double rounding) const { return T(-(T(rounding) - T(size))) / unit; }
 };
 
 /// A power of two near the configuration's largest length, metres. Lengths in multiples of it do
@@ -192,6 +199,7 @@ Bodies<T> make_bodies(const Configuration& c, double unit) {
   bodies.b.axes = rotation<T>(c.pose_b.orientation());
   Sizes<T>{bodies.a, T(unit)}(c.a);
   std::visit(Sizes<T>{bodies.b, T(unit)}, c.b);
+  bodies.rounding = (T(c.a.rounding()) + T(rounding_of(c.b))) / T(unit);
   // Quarters, because the difference of two doubles may overflow.
   for (int i = 0; i < 3; ++i) {
     bodies.offset[i] =

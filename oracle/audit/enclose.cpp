@@ -20,7 +20,8 @@ Enclosure over_plane(const Configuration& c, const Plane& plane, double unit) {
   for (int i = 0; i < 3; ++i) local[i] = Interval(plane.normal()[i]) / Interval(scale);
   const Vector<Interval> n = bodies.b.axes * local;
   const Interval length = sqrt(Interval(local.squaredNorm()));
-  const Interval level = Interval(plane.displacement()) / Interval(unit) / Interval(scale) / length;
+  const Interval level =
+      Interval(plane.displacement()) / Interval(unit) / Interval(scale) / length + bodies.rounding;
 
   const Vector<double> world = search.b.axes * scaled;
   const Vector<double> toward = -(search.a.axes.transpose() * world);
@@ -64,7 +65,9 @@ Enclosure enclose(const Configuration& configuration, const Budget& budget) {
   const double width = budget.width * (larger_size(configuration) / unit);
   const ClosestPair<double> closest = closest_pair(configuration, search, unit);
   const auto found = BranchAndBound<Interval>(certain, search).run(closest, width, budget.cells);
-  const auto metres = [&](double units) { return Interval(units) * Interval(unit); };
+  const auto metres = [&](double units) {
+    return (Interval(units) - certain.rounding) * Interval(unit);
+  };
   return {lower(metres(found.lo)), upper(metres(found.hi)), found.normal.normalized(),
           upper(metres(found.distance)), found.programs};
 }

@@ -16,8 +16,8 @@ struct Budget {
 struct Enclosure {
   double lo, hi;
   Vec3 normal;  ///< unit, from B to A: the gap along it is lo up to rounding
-  /// Distance of a point of A and a point of B, rounded up. It is at least σ >= lo: for separate
-  /// bodies a proof that needs a single direction.
+  /// Distance of a point of A and a point of B, of cores less the roundings, rounded up. It is at
+  /// least σ >= lo: for separate bodies a proof that needs a single direction.
   double pair_distance;
   int cells;  ///< number of cells bounded; zero if the pair suffices
 };

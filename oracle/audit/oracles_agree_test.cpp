@@ -18,6 +18,7 @@
 #include "oracle/audit/enclose.hpp"
 #include "oracle/expect_confirmed.hpp"
 #include "oracle/patch/contact_patch.hpp"
+#include "oracle/rounded.hpp"
 #include "oracle/truth.hpp"
 #include "properties/arbitrary.hpp"
 #include "properties/draw.hpp"
@@ -149,6 +150,27 @@ TEST_P(PoseClasses, BothOraclesEncloseOneSignedDistance) {
       const audit::Enclosure of_hull =
           expect_confirmed(with_hull(c), t, audit::Budget{}, is_continuum ? 1e-5 : 1e-9);
       EXPECT_LE(of_hull.hi - of_hull.lo, widest * larger_size(c));
+    }
+  }
+}
+
+// With roundings from none to all of the smallest size, whose cores are discs, segments and points.
+TEST_P(PoseClasses, OfRoundedBodiesAreAnsweredAlikeByBothOracles) {
+  constexpr double parts[] = {0, 1e-9, 0.2, 0.9, 1};
+  std::uint64_t k = 0;
+  for (const auto& name : pose_classes(GetParam())) {
+    for (std::uint64_t i = 0; i < std::max<std::uint64_t>(count_per_class() / 3, 1); ++i, ++k) {
+      const Identity id{GetParam(), name, 20261126, i};
+      SCOPED_TRACE(to_string(id));
+      const Configuration c = rounded_by(make_configuration(id), parts[k % 5], parts[k / 5 % 5]);
+      const oracle::Truth t = oracle::truth(c);
+      const bool is_continuum = t.ties == oracle::Ties::continuum;
+      expect_confirmed(c, t, audit::Budget{}, is_continuum ? 1e-4 : 1e-9);
+      if (GetParam() != Pair::box) continue;
+      const Configuration of_hull = rounded_by(with_hull(c), parts[k % 5], parts[k / 5 % 5]);
+      const oracle::Truth rounded = oracle::truth(of_hull);
+      expect_confirmed(of_hull, rounded, audit::Budget{},
+                       rounded.ties == oracle::Ties::continuum ? 1e-4 : 1e-9);
     }
   }
 }
