@@ -11,26 +11,28 @@ Pose turned_in_place(const Pose& pose, const Eigen::Quaterniond& local) {
 }
 
 /// The same faces of vertices that a power of two or a small step has moved.
-Convex with_vertices(const Convex& s, std::vector<Vec3> vertices) {
+Convex with_vertices(const Convex& s, std::vector<Vec3> vertices, double rounding) {
   std::vector<std::vector<int>> faces;
   for (const Convex::Face& face : s.faces()) faces.push_back(face.vertices);
-  return {std::move(vertices), std::move(faces)};
+  return {std::move(vertices), std::move(faces), rounding};
 }
 
 struct Scaled {
   double factor;
   Shape operator()(const Cylinder& s) const {
-    return Cylinder(factor * s.radius(), factor * s.half_length());
+    return Cylinder(factor * s.radius(), factor * s.half_length(), factor * s.rounding());
   }
   Shape operator()(const Capsule& s) const {
     return Capsule(factor * s.radius(), factor * s.half_length());
   }
   Shape operator()(const Sphere& s) const { return Sphere(factor * s.radius()); }
-  Shape operator()(const Box& s) const { return Box(factor * s.half_extents()); }
+  Shape operator()(const Box& s) const {
+    return Box(factor * s.half_extents(), factor * s.rounding());
+  }
   Shape operator()(const Convex& s) const {
     std::vector<Vec3> vertices = s.vertices();
     for (Vec3& v : vertices) v *= factor;
-    return with_vertices(s, std::move(vertices));
+    return with_vertices(s, std::move(vertices), factor * s.rounding());
   }
   Shape operator()(const Plane& s) const { return Plane(s.normal(), factor * s.displacement()); }
 };
@@ -89,7 +91,8 @@ Configuration scaled(const Configuration& c, double factor) {
 }
 
 Configuration with_a_grown(const Configuration& c, double radius, double half_length) {
-  return {Cylinder(radius * c.a.radius(), half_length * c.a.half_length()), c.pose_a, c.b,
+  const Cylinder& a = c.a;
+  return {Cylinder(radius * a.radius(), half_length * a.half_length(), a.rounding()), c.pose_a, c.b,
           c.pose_b};
 }
 

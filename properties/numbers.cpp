@@ -19,13 +19,13 @@ Shape body_b(const Numbers& n) {
     case Pair::capsule:
       return Capsule(s[2], s[3]);
     case Pair::cylinder:
-      return Cylinder(s[2], s[3]);
+      return Cylinder(s[2], s[3], n.rounding_b);
     case Pair::convex:
-      return oracle::convex_hull(n.vertices);
+      return oracle::convex_hull(n.vertices, n.rounding_b);
     case Pair::box:
       break;
   }
-  return Box({s[2], s[3], s[4]});
+  return Box({s[2], s[3], s[4]}, n.rounding_b);
 }
 
 }  // namespace
@@ -53,6 +53,8 @@ Numbers numbers_of(const Configuration& c) {
   n.position_b = c.pose_b.position();
   n.orientation_a = c.pose_a.orientation();
   n.orientation_b = c.pose_b.orientation();
+  n.rounding_a = c.a.rounding();
+  n.rounding_b = rounding_of(c.b);
   const auto add = [&](std::initializer_list<double> sizes) {
     n.sizes.insert(n.sizes.end(), sizes);
   };
@@ -72,8 +74,8 @@ Numbers numbers_of(const Configuration& c) {
 }
 
 Configuration configuration_of(const Numbers& n) {
-  return {Cylinder(n.sizes[0], n.sizes[1]), Pose(n.position_a, n.orientation_a), body_b(n),
-          Pose(n.position_b, n.orientation_b)};
+  return {Cylinder(n.sizes[0], n.sizes[1], n.rounding_a), Pose(n.position_a, n.orientation_a),
+          body_b(n), Pose(n.position_b, n.orientation_b)};
 }
 
 std::vector<double*> every_number(Numbers& n) {
@@ -83,10 +85,15 @@ std::vector<double*> every_number(Numbers& n) {
     add_vector(position);
     all.insert(all.end(), {&q.w(), &q.x(), &q.y(), &q.z()});
   };
+  const auto add_rounding = [&](double& rounding) {
+    if (rounding > 0) all.push_back(&rounding);
+  };
   all.insert(all.end(), {&n.sizes[0], &n.sizes[1]});
+  add_rounding(n.rounding_a);
   add_pose(n.position_a, n.orientation_a);
   for (std::size_t i = 2; i < n.sizes.size(); ++i) all.push_back(&n.sizes[i]);
   for (Vec3& vertex : n.vertices) add_vector(vertex);
+  add_rounding(n.rounding_b);
   if (n.pair == Pair::plane) {
     add_vector(n.normal);
     all.push_back(&n.displacement);
@@ -110,6 +117,8 @@ void scale_both(Numbers& n, int exponent) {
   }
   for (int i = 0; i < 3; ++i) scaled(n.position_a[i]), scaled(n.position_b[i]);
   scaled(n.displacement);
+  scaled(n.rounding_a);
+  scaled(n.rounding_b);
 }
 
 }  // namespace touchstone

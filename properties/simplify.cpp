@@ -132,6 +132,7 @@ int complexity(const Configuration& c) {
   const Numbers n = numbers_of(c);
   int sum = 0;
   for (const double size : n.sizes) sum += complexity(size);
+  sum += complexity(n.rounding_a) + complexity(n.rounding_b);
   for (const Vec3& vertex : n.vertices) sum += 1 + total(vertex);
   return sum + total(n.position_a) + total(n.position_b) + complexity(n.orientation_a) +
          complexity(n.orientation_b) + total(n.normal) + complexity(n.displacement);
@@ -167,8 +168,10 @@ std::vector<Configuration> simpler(const Configuration& configuration) {
       }
     }
   }
-  for (const double x : simpler_numbers(start.displacement, false)) {
-    steps.add([&](Numbers& n) { n.displacement = x; });
+  for (const auto number : {&Numbers::displacement, &Numbers::rounding_a, &Numbers::rounding_b}) {
+    for (const double x : simpler_numbers(start.*number, false)) {
+      steps.add([&](Numbers& n) { n.*number = x; });
+    }
   }
   return steps.take();
 }

@@ -45,6 +45,10 @@ void check_shape(const std::string& field, const Body& body) {
     return;
   }
   if (std::holds_alternative<Convex>(body.shape)) refuse_convex();
+  if (const double rounding = rounding_of(body.shape); rounding > 0) {
+    throw InvalidInput(field + ".rounding", fmt::format("{}", rounding),
+                       "must be left out: bodies of scenes have sharp edges");
+  }
   const double smallest = smallest_half_extent(body.shape);
   const double largest = largest_half_extent(body.shape);
   if (!(smallest >= min_half_width && largest <= max_in_world)) {

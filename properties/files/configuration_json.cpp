@@ -36,24 +36,29 @@ json write_vector(const Vec3& v, const Write& write) {
 struct WriteShape {
   Write write;
   json operator()(const Cylinder& s) const {
-    return round("cylinder", s.radius(), s.half_length());
+    return rounded(round("cylinder", s.radius(), s.half_length()), s.rounding());
   }
   json operator()(const Capsule& s) const { return round("capsule", s.radius(), s.half_length()); }
   json operator()(const Sphere& s) const {
     return {{"shape", "sphere"}, {"radius", write(s.radius())}};
   }
   json operator()(const Box& s) const {
-    return {{"shape", "box"}, {"half_extents", write_vector(s.half_extents(), write)}};
+    return rounded({{"shape", "box"}, {"half_extents", write_vector(s.half_extents(), write)}},
+                   s.rounding());
   }
   json operator()(const Convex& s) const {
     json vertices = json::array();
     for (const Vec3& v : s.vertices()) vertices.push_back(write_vector(v, write));
-    return {{"shape", "convex"}, {"vertices", std::move(vertices)}};
+    return rounded({{"shape", "convex"}, {"vertices", std::move(vertices)}}, s.rounding());
   }
   json operator()(const Plane& s) const {
     return {{"shape", "plane"},
             {"normal", write_vector(s.normal(), write)},
             {"displacement", write(s.displacement())}};
+  }
+  json rounded(json shape, double rounding) const {
+    if (rounding > 0) shape["rounding"] = write(rounding);
+    return shape;
   }
   json round(const char* name, double radius, double half_length) const {
     return {{"shape", name}, {"radius", write(radius)}, {"half_length", write(half_length)}};
@@ -81,13 +86,16 @@ Shape shape_from_json(const json& value, const std::string& path) {
   const auto size = [&](const char* name) {
     return number(member(value, name, path), path + "." + name);
   };
-  if (kind == "cylinder" || kind == "capsule") {
+  const auto rounding = [&] { return value.contains("rounding") ? size("rounding") : 0; };
+  if (kind == "cylinder") {
+    refuse_others(value, {"shape", "radius", "half_length", "rounding"}, path);
+    const double radius = size("radius"), half_length = size("half_length"), edges = rounding();
+    return at_path(path, [&]() -> Shape { return Cylinder(radius, half_length, edges); });
+  }
+  if (kind == "capsule") {
     refuse_others(value, {"shape", "radius", "half_length"}, path);
     const double radius = size("radius"), half_length = size("half_length");
-    return at_path(path, [&]() -> Shape {
-      if (kind == "cylinder") return Cylinder(radius, half_length);
-      return Capsule(radius, half_length);
-    });
+    return at_path(path, [&]() -> Shape { return Capsule(radius, half_length); });
   }
   if (kind == "sphere") {
     refuse_others(value, {"shape", "radius"}, path);
@@ -95,9 +103,10 @@ Shape shape_from_json(const json& value, const std::string& path) {
     return at_path(path, [&]() -> Shape { return Sphere(radius); });
   }
   if (kind == "box") {
-    refuse_others(value, {"shape", "half_extents"}, path);
+    refuse_others(value, {"shape", "half_extents", "rounding"}, path);
     const Vec3 half = vector(member(value, "half_extents", path), path + ".half_extents");
-    return at_path(path, [&]() -> Shape { return Box(half); });
+    const double edges = rounding();
+    return at_path(path, [&]() -> Shape { return Box(half, edges); });
   }
   if (kind == "plane") {
     refuse_others(value, {"shape", "normal", "displacement"}, path);
@@ -106,7 +115,7 @@ Shape shape_from_json(const json& value, const std::string& path) {
     return at_path(path, [&]() -> Shape { return Plane(normal, displacement); });
   }
   if (kind == "convex") {
-    refuse_others(value, {"shape", "vertices"}, path);
+    refuse_others(value, {"shape", "vertices", "rounding"}, path);
     const json& given = member(value, "vertices", path);
     const std::string field = path + ".vertices";
     if (!given.is_array()) {
@@ -116,7 +125,8 @@ Shape shape_from_json(const json& value, const std::string& path) {
     for (std::size_t i = 0; i < given.size(); ++i) {
       vertices.push_back(vector(given[i], fmt::format("{}[{}]", field, i)));
     }
-    return at_path(path, [&]() -> Shape { return oracle::convex_hull(vertices); });
+    const double around = rounding();
+    return at_path(path, [&]() -> Shape { return oracle::convex_hull(vertices, around); });
   }
   throw InvalidInput(
       path + ".shape", shown(kind),

@@ -92,6 +92,21 @@ TEST(ConfigurationJson, AHullIsMadeOfTheVerticesThatAreGiven) {
   EXPECT_EQ(to_hex_json(given.configuration)["b"]["vertices"][3][2], "0x1p-1");
 }
 
+TEST(ConfigurationJson, ARoundingIsReadAndWrittenWhereThereIsOne) {
+  json line = box_configuration();
+  EXPECT_FALSE(to_json(configuration_from_json(line).configuration)["a"].contains("rounding"));
+  line["a"]["rounding"] = "0x1p-3";
+  line["b"]["rounding"] = 0.0625;
+  const Configuration c = configuration_from_json(line).configuration;
+  EXPECT_EQ(c.a.rounding(), 0.125);
+  EXPECT_EQ(std::get<Box>(c.b).rounding(), 0.0625);
+  EXPECT_EQ(to_hex_json(c)["a"]["rounding"], "0x1p-3");
+  EXPECT_EQ(to_json(configuration_from_json(to_json(c)).configuration), to_json(c));
+  line["b"] =
+      json::parse(R"({"shape":"convex","vertices":[[0,0,0],[1,0,0],[0,1,0]],"rounding":9})");
+  EXPECT_EQ(std::get<Convex>(configuration_from_json(line).configuration.b).rounding(), 9);
+}
+
 TEST(ConfigurationJson, NamesTheFieldThatIsWrong) {
   const struct {
     const char* pointer;
@@ -116,6 +131,14 @@ TEST(ConfigurationJson, NamesTheFieldThatIsWrong) {
       {"/b/half_extents", "[1,2]", "b.half_extents"},
       {"/b/half_extents/1", "0", "b.half_extents[1]"},
       {"/b/half_extents/1", "[]", "b.half_extents[1]"},
+      {"/a/rounding", "-1", "a.rounding"},
+      {"/a/rounding", "1000", "a.rounding"},
+      {"/a/rounding", "null", "a.rounding"},
+      {"/b/rounding", "\"inf\"", "b.rounding"},
+      {"/b", R"({"shape":"sphere","radius":1,"rounding":1})", "b.rounding"},
+      {"/b", R"({"shape":"capsule","radius":1,"half_length":1,"rounding":1})", "b.rounding"},
+      {"/b", R"({"shape":"convex","vertices":[[0,0,0],[1,0,0],[0,1,0]],"rounding":-1})",
+       "b.rounding"},
       {"/b", R"({"shape":"convex"})", "b.vertices"},
       {"/b", R"({"shape":"convex","vertices":3})", "b.vertices"},
       {"/b", R"({"shape":"convex","vertices":[[0,0,0],[1,0,0],[0,1]]})", "b.vertices[2]"},
