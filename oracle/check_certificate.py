@@ -34,6 +34,7 @@ HEXADECIMAL = re.compile(
 SHAPES = {"cylinder": ("radius", "half_length"), "capsule": ("radius", "half_length"),
           "sphere": ("radius",), "box": ("half_extents",), "plane": ("normal", "displacement"),
           "convex": ("vertices",)}
+ROUNDED = ("cylinder", "box", "convex")  # may have a rounding
 LENGTHS = {"half_extents": 3, "normal": 3, "position": 3, "orientation": 4}  # the rest are numbers
 IDENTITY = {"position": [0.0, 0.0, 0.0], "orientation": [1.0, 0.0, 0.0, 0.0]}
 
@@ -130,16 +131,21 @@ def read_shape(value, field):
     require(isinstance(value, dict), field, value, "an object")
     kind = value.get("shape")
     require(isinstance(kind, str) and kind in SHAPES, field + ".shape", kind, " or ".join(SHAPES))
-    members(value, field, ("shape", *SHAPES[kind]))
+    members(value, field, ("shape", *SHAPES[kind]), ("rounding",) if kind in ROUNDED else ())
+    rounding = doubles(value, field, ("rounding",) if "rounding" in value else ())
+    require(min(rounding.values(), default=0) >= 0, f"{field}.rounding is negative")
     if kind == "convex":
-        return {"shape": kind, "vertices": read_vertices(value["vertices"], field + ".vertices")}
+        vertices = read_vertices(value["vertices"], field + ".vertices")
+        return {"shape": kind, "vertices": vertices, **rounding}
     numbers = doubles(value, field, SHAPES[kind])
     if kind == "plane":
         require(any(numbers["normal"]), f"{field}.normal is zero")
     else:
         for name, x in numbers.items():
-            require((min(x) if name in LENGTHS else x) > 0, f"{field}.{name} is not positive")
-    return {"shape": kind, **numbers}
+            least = min(x) if name in LENGTHS else x
+            require(least > 0, f"{field}.{name} is not positive")
+            require(least >= max(rounding.values(), default=0), f"{field}.rounding is above {name}")
+    return {"shape": kind, **numbers, **rounding}
 
 
 def read_vertices(value, field):
@@ -209,25 +215,30 @@ def root(x, above=False):
 
 
 class Body:
-    """A shape in its own frame, and the exact rotation R(q)/|q|^2 of its pose."""
+    """A shape in its own frame, of a rounded one the core, and the exact rotation R(q)/|q|^2 of its
+    pose."""
 
     def __init__(self, name, configuration):
         shape, pose = configuration[name], configuration["pose_" + name]
         self.name, self.kind, self.centre = name, shape["shape"], pose["position"]
+        self.rounding = shape.get("rounding", Fraction(0))
         if self.kind == "plane":
             self.normal, self.displacement = shape["normal"], shape["displacement"]
             self.size = Fraction(0)
         elif self.kind == "box":
-            self.half_extents = shape["half_extents"]
-            self.size = max(self.half_extents)
+            self.half_extents = [h - self.rounding for h in shape["half_extents"]]
+            self.size = max(shape["half_extents"])
         elif self.kind == "convex":
             self.vertices = shape["vertices"]  # those of a hull; as many as there are inside it
             axes = [list(map(float, axis)) for axis in zip(*self.vertices)]
-            self.size = Fraction(max(max(axis) / 2 - min(axis) / 2 for axis in axes))
+            largest = max(max(axis) / 2 - min(axis) / 2 for axis in axes)
+            self.size = Fraction(min(largest + float(self.rounding), sys.float_info.max))
         else:  # a sphere is a capsule of half length zero
             self.radius, self.half_length = shape["radius"], shape.get("half_length", Fraction(0))
             self.size = (max(self.radius, self.half_length) if self.kind == "cylinder"
                          else min(self.radius + self.half_length, Fraction(sys.float_info.max)))
+            self.radius -= self.rounding
+            self.half_length -= self.rounding
         w, x, y, z = integers(pose["orientation"])[0]
         self.square = w * w + x * x + y * y + z * z
         self.columns = [[w * w + x * x - y * y - z * z, 2 * (x * y + w * z), 2 * (x * z - w * y)],
@@ -387,11 +398,12 @@ def check(certificate):
     n = vector(certificate["normal"], "normal")  # from b to a
     if a.kind != "cylinder":
         a, b, n = b, a, [-x for x in n]
-    check_lower(a, b, n, lo)
+    rounding = a.rounding + b.rounding  # by which the cores are farther apart, along every direction
+    check_lower(a, b, n, lo + rounding)
     if bound == "pair":
-        check_pair(a, b, n, hi, certificate["pair"])
+        check_pair(a, b, n, hi + rounding, certificate["pair"])
     else:
-        check_cells(a, b, hi, certificate["cells"])
+        check_cells(a, b, hi + rounding, certificate["cells"])
     check_width(certificate["width"], hi - lo, max(a.size, b.size))
     return lo, hi
 

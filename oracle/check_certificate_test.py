@@ -167,6 +167,8 @@ class Reading(CheckerTest):
     def test_configurations_are_rejected_that_solve_refuses(self):
         for path, value in ((("a", "radius"), 0.0), (("a", "half_length"), -1.0),
                             (("b", "radius"), -2.0), (("b", "shape"), "ball"),
+                            (("a", "rounding"), -0.5), (("a", "rounding"), 1.25),
+                            (("b", "rounding"), 0.5),
                             (("pose_a", "orientation"), [0.0] * 4),
                             (("pose_a", "position"), [0.0] * 2),
                             (("b",), {"shape": "plane", "normal": [0.0] * 3, "displacement": 0.0}),
@@ -181,6 +183,17 @@ class Reading(CheckerTest):
                 forged = changed(apart(), ("configuration", *path), value)
                 self.assert_rejected(changed(forged, ("exact", *path), exact(value)),
                                      "configuration.")
+
+    def test_a_rounded_body_is_its_core_and_nearer_by_the_rounding(self):
+        value = changed(apart(), ("signed_distance",), ["2", "2"])
+        for name, a in (("configuration", cylinder(2.0, 2.0)), ("exact", exact(cylinder(2.0, 2.0)))):
+            value = changed(value, (name, "a"), a)
+        self.assert_rejected(value, "the gap along the normal")
+        for name, one in (("configuration", 1.0), ("exact", "1")):
+            value = changed(value, (name, "a", "rounding"), one)
+        self.assert_accepted(value)
+        self.assert_rejected(changed(value, ("signed_distance",), ["3", "3"]), "along the normal")
+        self.assert_rejected(changed(value, ("signed_distance",), ["1", "1"]), "farther apart than hi")
 
     def test_a_pose_may_be_missing(self):
         value = apart()

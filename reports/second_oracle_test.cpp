@@ -17,6 +17,7 @@
 #include <nlohmann/json.hpp>
 
 #include "candidates/candidates.hpp"
+#include "oracle/rounded.hpp"
 #include "oracle/truth.hpp"
 #include "properties/files/configuration_json.hpp"
 #include "properties/identity.hpp"
@@ -160,6 +161,23 @@ TEST_P(Certificates, AreAcceptedAndEncloseTheTruth) {
     }
     folder.write(pose_class + "-" + std::to_string(id.index), certificate_json(proof, c));
     ++count;
+  }
+  folder.expect_accepted(count);
+}
+
+TEST_P(Certificates, OfRoundedBodiesAreAcceptedAndEncloseTheTruth) {
+  const Folder folder;
+  std::size_t count = 0;
+  constexpr double parts[] = {0.25, 1};
+  for (const Identity& id : identities(GetParam())) {
+    SCOPED_TRACE(to_string(id));
+    const Configuration c =
+        rounded_by(make_configuration(id), parts[count % 2], parts[count / 2 % 2]);
+    const audit::Certificate proof = audit::certify(c, budget);
+    const oracle::Enclosure truth = oracle::truth(c).signed_distance;
+    EXPECT_LE(proof.lo, truth.hi);
+    EXPECT_GE(proof.hi, truth.lo);
+    folder.write(std::to_string(count++), certificate_json(proof, c));
   }
   folder.expect_accepted(count);
 }

@@ -166,8 +166,8 @@ class Prover {
 
   Certificate certificate() const {
     const Vector<Rational> normal = shortest_normal(bodies_, found_.normal, found_.lo - room_);
-    const Rational lo =
-        rounded(gap_below(bodies_, as_reals(normal)) - rounding(), grain_, MPFR_RNDD);
+    const Rational lo = rounded(
+        gap_below(bodies_, as_reals(normal)) - bodies_.rounding - rounding(), grain_, MPFR_RNDD);
     Certificate result{in_metres(lo, unit_), {},           in_metres(grain_of(grain_), unit_),
                        in_metres(normal, 1), std::nullopt, {}};
     if (found_.hi <
@@ -188,9 +188,11 @@ class Prover {
     const PointPair<Rational> pair =
         shortest(exact_, found_.closest, [&](const auto& w) { return closer(w, goal); });
     const Vector<Rational> w = difference(exact_, pair);
-    const Rational hi =
-        tight_above(distance_above(bodies_, as<Real400>(pair)), rounding(), grain_,
-                    [&](const Rational& end) { return end >= 0 && closer(w, end); });
+    const Rational hi = tight_above(distance_above(bodies_, as<Real400>(pair)) - bodies_.rounding,
+                                    rounding(), grain_, [&](const Rational& end) {
+                                      const Rational of_cores = end + exact_.rounding;
+                                      return of_cores >= 0 && closer(w, of_cores);
+                                    });
     result.hi = in_metres(hi, unit_);
     result.pair = in_metres(pair, unit_);
   }
@@ -210,9 +212,11 @@ class Prover {
       bound = std::max(bound, corner_bound_above(bodies_, as<Real400>(short_pair), cell));
       result.cells.push_back({path_of(cell), in_metres(short_pair, unit_)});
     }
-    const Rational hi = tight_above(bound, rounding(), grain_, [&](const Rational& end) {
+    const Real400 above_all = bound - bodies_.rounding;
+    const Rational hi = tight_above(above_all, rounding(), grain_, [&](const Rational& end) {
+      const Rational of_cores = end + exact_.rounding;
       for (std::size_t i = 0; i < cells.size(); ++i) {
-        if (!bounds_cell(differences[i], cells[i], end)) return false;
+        if (!bounds_cell(differences[i], cells[i], of_cores)) return false;
       }
       return true;
     });
@@ -246,7 +250,8 @@ Certificate certify_over_plane(const Configuration& c, const Plane& plane, const
   const Real400 length = sqrt(Real400(squared));
   const Vector<Real400> toward = -(bodies.a.axes.transpose() * n);
   const Vector<Real400> lowest = pulled_inside(bodies.a, support_point(bodies.a, toward));
-  const Real400 gap = (gap_times_length(bodies, n) - Real400(displacement)) / length;
+  const Real400 gap =
+      (gap_times_length(bodies, n) - Real400(displacement)) / length - bodies.rounding;
   // With a short normal the plane may be many units away.
   const Real400 far = abs(Real400(displacement)) / length;
   const Real400 error = rounding() * std::max(Real400(1), far);
@@ -258,11 +263,13 @@ Certificate certify_over_plane(const Configuration& c, const Plane& plane, const
   for (int bits = bits_step; bits <= max_bits; bits += bits_step) {
     pair = {truncated(lowest, bits), b};
     along = difference(exact, pair).dot(normal);
-    if (certainly_contains(exact.a, pair.a) && at_most(along, goal, squared)) break;
+    const Rational of_cores = goal + exact.rounding;
+    if (certainly_contains(exact.a, pair.a) && at_most(along, of_cores, squared)) break;
   }
   if (!certainly_contains(exact.a, pair.a)) fail();
-  const Rational hi = tight_above(Real400(along) / length, error, grain, [&](const Rational& end) {
-    return at_most(along, end, squared);
+  const Real400 above = Real400(along) / length - bodies.rounding;
+  const Rational hi = tight_above(above, error, grain, [&](const Rational& end) {
+    return at_most(along, end + exact.rounding, squared);
   });
   const Rational lo = rounded(gap - error, grain, MPFR_RNDD);
   return {in_metres(lo, unit),  in_metres(hi, unit),   in_metres(grain_of(grain), unit),

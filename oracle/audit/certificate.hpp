@@ -13,7 +13,8 @@ namespace touchstone::audit {
 
 using RationalVector = std::array<mpq_class, 3>;
 
-/// A point of A and a point of B, each in its own body frame, metres.
+/// A point of A and a point of B, of their cores if they are rounded, each in its own body frame,
+/// metres.
 struct RationalPair {
   RationalVector a, b;
   /// In a hull, instead of `b`: weights of vertices, none negative, whose mean is the point.
@@ -27,7 +28,8 @@ struct Certificate {
   /// lo and hi are multiples of the grain, and this proof implies no narrower multiples.
   mpq_class grain;
   RationalVector normal;  ///< world, any length: the gap along it is at least lo
-  /// Present if hi >= 0 or B is a plane: points at most hi apart (for a plane: along its normal).
+  /// Present if the cores do not overlap or B is a plane: points at most hi apart, with the
+  /// roundings added (for a plane: along its normal).
   std::optional<RationalPair> pair;
   struct Cell {
     /// The face of the cube, 0 to 5, then for each level the quarter, 0 to 3 (DirectionCell).
