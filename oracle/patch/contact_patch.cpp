@@ -16,17 +16,20 @@ namespace {
 // Support of a body about its position along the unit vector n of its own frame; for a plane the
 // height of its surface, whatever n is (Ericson, "Real-Time Collision Detection", 4.3 and 9.5).
 double reach(const Cylinder& s, const Vec3& n) {
-  return s.half_length() * std::abs(n.z()) + s.radius() * std::hypot(n.x(), n.y());
+  return s.core_half_length() * std::abs(n.z()) + s.core_radius() * std::hypot(n.x(), n.y()) +
+         s.rounding();
 }
 double reach(const Capsule& s, const Vec3& n) {
   return s.half_length() * std::abs(n.z()) + s.radius();
 }
 double reach(const Sphere& s, const Vec3&) { return s.radius(); }
-double reach(const Box& s, const Vec3& n) { return s.half_extents().dot(n.cwiseAbs()); }
+double reach(const Box& s, const Vec3& n) {
+  return s.core_half_extents().dot(n.cwiseAbs()) + s.rounding();
+}
 double reach(const Convex& s, const Vec3& n) {
   double highest = -std::numeric_limits<double>::infinity();
   for (const Vec3& v : s.vertices()) highest = std::max(highest, v.dot(n));
-  return highest;
+  return highest + s.rounding();
 }
 double reach(const Plane& s, const Vec3&) { return s.unit_displacement(); }
 
@@ -99,7 +102,7 @@ Convex scaled(const Convex& hull, int exponent) {
   }
   std::vector<std::vector<int>> faces;
   for (const Convex::Face& face : hull.faces()) faces.push_back(face.vertices);
-  return {std::move(vertices), std::move(faces)};
+  return {std::move(vertices), std::move(faces), std::scalbn(hull.rounding(), exponent)};
 }
 
 /// As in rounding.hpp, but for a hull: normals name the vertices as given.

@@ -45,10 +45,11 @@ struct PosedShape {
   Vec3 unit_axis(int i) const { return rounded(exact.axes[i]) / exact.norm.get_d(); }
   /// +1 or −1: the end of an axis, not perpendicular to the normal, that is farther out.
   int end(int i) const { return sgn(dot(exact.axes[i], out.direction)) < 0 ? -1 : 1; }
-  bool is_certain(int i) const {
+  /// Of a body without a length along the axis, or without one across it, no end has to be chosen.
+  bool is_certain(int i, bool is_long = true, bool is_wide = true) const {
     const Vec3 axis = unit_axis(i);
-    return out.is_exact || (std::abs(axis.dot(out.unit)) > nearly_aligned &&
-                            axis.cross(out.unit).norm() > nearly_aligned);
+    return out.is_exact || ((!is_long || std::abs(axis.dot(out.unit)) > nearly_aligned) &&
+                            (!is_wide || axis.cross(out.unit).norm() > nearly_aligned));
   }
   SupportFeature centred(Kind kind) const {
     SupportFeature f;
@@ -58,9 +59,9 @@ struct PosedShape {
     return f;
   }
   /// Along the axis of a body of revolution.
-  SupportFeature generator(double half_length) const {
+  SupportFeature generator(const mpq_class& half_length) const {
     SupportFeature f = centred(Kind::segment);
-    f.u = mpq_class(half_length) / exact.norm * f.u;
+    f.u = half_length / exact.norm * f.u;
     return f;
   }
   /// Of corners in order, either way round.
@@ -74,26 +75,32 @@ struct PosedShape {
   }
 };
 
+// Of a rounded body the feature is that of its core, which may be a disc, a segment or a point; a
+// point is moved out by the rounding, while what others have along the normal has no meaning.
+
+/// What a rounding leaves of a size, exactly.
+mpq_class of_core(double size, double rounding) { return mpq_class(size) - mpq_class(rounding); }
+
 SupportFeature feature(const Cylinder& shape, const PosedShape& body) {
-  switch (body.alignment[2]) {
-    case Alignment::parallel: {
-      SupportFeature f = body.centred(Kind::disc);
-      f.radius = shape.radius();
-      return f;
-    }
-    case Alignment::perpendicular:
-      return body.generator(shape.half_length());
-    case Alignment::oblique:
-      break;
+  const mpq_class radius = of_core(shape.radius(), shape.rounding());
+  const mpq_class half_length = of_core(shape.half_length(), shape.rounding());
+  if (body.alignment[2] == Alignment::parallel && radius > 0) {
+    SupportFeature f = body.centred(Kind::disc);
+    f.radius = radius;
+    return f;
+  }
+  if (body.alignment[2] == Alignment::perpendicular && half_length > 0) {
+    return body.generator(half_length);
   }
   SupportFeature f;
   // The component perpendicular to the axis is exact, so that a small tilt loses no digits.
   const RationalVector &n = body.out.direction, &axis = body.exact.axes[2];
   const mpq_class along = dot(axis, n) / (body.exact.norm * body.exact.norm);
   const Vec3 radial = rounded(n - along * axis);
-  f.point = body.pose.position() + body.end(2) * shape.half_length() * body.unit_axis(2);
-  if (!radial.isZero(0)) f.point += shape.radius() * radial.normalized();
-  f.point_is_certain = body.is_certain(2);
+  f.point = body.pose.position() + body.end(2) * shape.core_half_length() * body.unit_axis(2) +
+            shape.rounding() * body.out.unit;
+  if (!radial.isZero(0)) f.point += shape.core_radius() * radial.normalized();
+  f.point_is_certain = body.is_certain(2, half_length > 0, radius > 0);
   return f;
 }
 
@@ -114,16 +121,17 @@ SupportFeature feature(const Sphere& shape, const PosedShape& body) {
 
 SupportFeature feature(const Box& shape, const PosedShape& body) {
   SupportFeature f = body.centred(Kind::point);
-  f.point = body.pose.position();
+  f.point = body.pose.position() + shape.rounding() * body.out.unit;
   std::vector<RationalVector> across;  // halves of the box
   for (int i = 0; i < 3; ++i) {
-    const mpq_class half(shape.half_extents()[i]);
+    const mpq_class half = of_core(shape.half_extents()[i], shape.rounding());
+    if (half == 0) continue;
     const RationalVector along = half / body.exact.norm * body.exact.axes[i];
     if (body.alignment[i] == Alignment::perpendicular) {
       across.push_back(along);
       continue;
     }
-    f.point += body.end(i) * shape.half_extents()[i] * body.unit_axis(i);
+    f.point += body.end(i) * half.get_d() * body.unit_axis(i);
     f.centre = f.centre + body.end(i) * along;
     f.point_is_certain = f.point_is_certain && body.is_certain(i);
   }
@@ -177,7 +185,7 @@ SupportFeature feature(const Convex& shape, const PosedShape& body) {
     return body.polygon(std::move(corners));
   }
   SupportFeature f;
-  f.point = rounded(corner(support[0]));
+  f.point = rounded(corner(support[0])) + shape.rounding() * body.out.unit;
   f.point_is_certain = support.size() == 1 && (is_known || body.out.is_exact);
   return f;
 }
@@ -249,6 +257,12 @@ std::vector<double> below_the_highest(const std::vector<Vec3>& vertices, const V
   return below;
 }
 
+/// Seen along n, the part of a ball within `left` of its top is a disc of this radius.
+double radius_of_ball_part(double r, double left) {
+  return left < r ? std::sqrt(left * (2 * r - left)) : r;
+}
+
+/// Of a rounded body, its core.
 struct Part {
   Vec3 n;
   double epsilon;
@@ -259,7 +273,7 @@ struct Part {
   // the angle between the axis and n. For each φ the part is an interval of w up to h. Its hull is
   // that of the upper rim, the cut across the side, and the lower rim if the part reaches it.
   void add(const Cylinder& shape, const Vec3& centre, const Eigen::Matrix3d& axes) {
-    const double r = shape.radius(), h = shape.half_length();
+    const double r = shape.core_radius(), h = shape.core_half_length();
     const Vec3 up = axes.col(2).dot(n) < 0 ? Vec3(-axes.col(2)) : Vec3(axes.col(2));
     const double c = up.dot(n);
     const Vec3 lateral(axes.col(0).dot(n), axes.col(1).dot(n), 0);
@@ -288,9 +302,8 @@ struct Part {
     }
   }
 
-  // The part of a ball within `left` of its top is a disc, seen along n.
   void add_ball(double r, const Vec3& centre, double left, int count) {
-    const double radius = left < r ? std::sqrt(left * (2 * r - left)) : r;
+    const double radius = radius_of_ball_part(r, left);
     const Vec3 e1 = n.unitOrthogonal(), e2 = n.cross(e1);
     for (int i = 0; i < count; ++i) {
       const double angle = 2 * std::numbers::pi * i / count;
@@ -325,7 +338,7 @@ struct Part {
     std::vector<Convex::Edge> edges;
     for (int bits = 0; bits < 8; ++bits) {
       const Vec3 signs(bits & 1 ? 1 : -1, bits & 2 ? 1 : -1, bits & 4 ? 1 : -1);
-      corners.emplace_back(signs.cwiseProduct(shape.half_extents()));
+      corners.emplace_back(signs.cwiseProduct(shape.core_half_extents()));
       for (int i = 0; i < 3; ++i) {
         if (!(bits >> i & 1)) edges.push_back({{bits, bits | 1 << i}, {}});
       }
@@ -367,12 +380,13 @@ double ball_width(double r, double epsilon) {
 }
 
 WidthFromEpsilon width(const Cylinder& shape, const Vec3& n, double epsilon) {
-  const double r = shape.radius(), h = shape.half_length();
+  const double r = shape.core_radius(), h = shape.core_half_length();
   const double s = std::hypot(n.x(), n.y()), c = std::abs(n.z());
   const double along = width_along(h, c, epsilon);
-  if (2 * r * s <= epsilon) return {along, false};
+  const bool has_one_end = h == 0 || 2 * h * c > epsilon;
+  if (2 * r * s <= epsilon) return {along, r == 0 && has_one_end};
   const double round = 2 * r * std::sin(std::min(reach(r * s, epsilon), std::numbers::pi / 2));
-  return {std::max(along, round), 2 * h * c > epsilon};
+  return {std::max(along, round), has_one_end};
 }
 WidthFromEpsilon width(const Sphere& shape, const Vec3&, double epsilon) {
   return {ball_width(shape.radius(), epsilon), true};
@@ -384,9 +398,9 @@ WidthFromEpsilon width(const Capsule& shape, const Vec3& n, double epsilon) {
 WidthFromEpsilon width(const Box& shape, const Vec3& n, double epsilon) {
   WidthFromEpsilon result{0, true};
   for (int i = 0; i < 3; ++i) {
-    const double h = shape.half_extents()[i], c = std::abs(n[i]);
+    const double h = shape.core_half_extents()[i], c = std::abs(n[i]);
     result.largest = std::max(result.largest, width_along(h, c, epsilon));
-    result.is_a_corner = result.is_a_corner && 2 * h * c > epsilon;
+    result.is_a_corner = result.is_a_corner && (h == 0 || 2 * h * c > epsilon);
   }
   return result;
 }
@@ -414,19 +428,75 @@ WidthFromEpsilon width(const Convex& shape, const Vec3& n, double epsilon) {
 }
 WidthFromEpsilon width(const Plane&, const Vec3&, double) { return {0, false}; }
 
+/// A point of the core that is lower than its highest one by less than epsilon carries a ball, of
+/// which the part within the rest of epsilon counts: the points that are farthest in all directions
+/// about n, of balls on the parts of the core within several depths, and on the corners of that
+/// within epsilon.
+std::vector<Vec3> rounded_part(const Shape& shape, const Vec3& centre, const Eigen::Matrix3d& axes,
+                               const Vec3& n, double epsilon) {
+  constexpr int rests = 16;
+  constexpr double nothing = 1e-12;  // of epsilon: the core's highest points
+  const double rounding = rounding_of(shape);
+  struct Carried {
+    Vec3 centre;
+    double radius;
+  };
+  std::vector<std::vector<Carried>> of_depths;
+  const auto core_within = [&](double depth) {
+    Part core{n, depth, {}};
+    std::visit([&](const auto& s) { core.add(s, centre, axes); }, shape);
+    return core.points;
+  };
+  for (int i = 0; i <= rests; ++i) {
+    // They decrease as a square, so that the radii of the balls' parts decrease evenly.
+    const double root = 1 - static_cast<double>(i) / rests, rest = epsilon * root * root;
+    auto& balls = of_depths.emplace_back();
+    for (const Vec3& p : core_within(std::max(epsilon - rest, nothing * epsilon))) {
+      balls.push_back({p, radius_of_ball_part(rounding, rest)});
+    }
+  }
+  const std::vector<Vec3> within = core_within(epsilon);
+  const auto height = [&](const Vec3& p) { return p.dot(n); };
+  const double top = height(*std::ranges::max_element(within, {}, height));
+  auto& corners = of_depths.emplace_back();
+  for (const Vec3& p : within) {
+    const double rest = std::clamp(epsilon - (top - height(p)), 0.0, epsilon);
+    corners.push_back({p, radius_of_ball_part(rounding, rest)});
+  }
+
+  const Vec3 e1 = n.unitOrthogonal(), e2 = n.cross(e1);
+  std::vector<Vec3> points;
+  for (int k = 0; k < chords; ++k) {
+    const double angle = 2 * std::numbers::pi * k / chords;
+    const Vec3 direction = std::cos(angle) * e1 + std::sin(angle) * e2;
+    const auto reach_of = [&](const Carried& b) { return b.centre.dot(direction) + b.radius; };
+    for (const auto& balls : of_depths) {
+      const Carried& farthest = *std::ranges::max_element(balls, {}, reach_of);
+      points.push_back(farthest.centre + farthest.radius * direction);
+    }
+  }
+  return points;
+}
+
 }  // namespace
 
 WidthFromEpsilon width_from_epsilon(const Shape& shape, const Pose& pose, const Vec3& n,
                                     double epsilon) {
   const Vec3 local = pose.rotation().transpose() * n;
-  return std::visit([&](const auto& s) { return width(s, local, epsilon); }, shape);
+  WidthFromEpsilon result =
+      std::visit([&](const auto& s) { return width(s, local, epsilon); }, shape);
+  if (const double rounding = rounding_of(shape); rounding > 0) {
+    result.largest += ball_width(rounding, epsilon);
+  }
+  return result;
 }
 
 std::vector<Vec3> support_part(const Shape& shape, const Pose& pose, const Vec3& n, double epsilon,
                                const Vec3& origin) {
+  const Vec3 centre = pose.position() - origin;
+  if (rounding_of(shape) > 0) return rounded_part(shape, centre, pose.rotation(), n, epsilon);
   Part part{n, epsilon, {}};
-  std::visit([&](const auto& s) { part.add(s, Vec3(pose.position() - origin), pose.rotation()); },
-             shape);
+  std::visit([&](const auto& s) { part.add(s, centre, pose.rotation()); }, shape);
   return part.points;
 }
 

@@ -30,8 +30,8 @@ RationalVector exact(const Vec3& v);
 /// Rounds each coordinate towards zero.
 Vec3 rounded(const RationalVector& v);
 
-/// The part of a body in its support plane, seen along the normal. Exact, except for points, whose
-/// coordinates may be irrational.
+/// The part of a body, or of a rounded one's core, in its support plane, seen along the normal.
+/// Exact, except for points, whose coordinates may be irrational.
 struct SupportFeature {
   enum class Kind { point, segment, disc, polygon, plane };
   Kind kind = Kind::point;
@@ -57,8 +57,8 @@ SupportFeatures support_features(const Configuration& configuration, const Optim
 
 /// Points whose convex hull, seen along the unit vector n, is the part of a posed body (no plane)
 /// within `epsilon` > 0 metres of its support plane along n. Curves are sampled, so that the hull
-/// is inscribed. Positions are relative to `origin`; for spheres and capsules their component along
-/// n has no meaning.
+/// is inscribed. Positions are relative to `origin`; for spheres, capsules and rounded bodies their
+/// component along n has no meaning.
 std::vector<Vec3> support_part(const Shape& shape, const Pose& pose, const Vec3& n, double epsilon,
                                const Vec3& origin);
 
