@@ -60,6 +60,9 @@ class Contact {
     points_[count_++] = {position, depth};
   }
   void clear_points() { count_ = 0; }
+  /// Moves the points by a vector and makes them deeper; leaves out those that are no farther than
+  /// `same` from one before.
+  void shift_points(const Vec3& by, double deeper, double same);
 
  private:
   std::array<ContactPoint, max_points> points_;

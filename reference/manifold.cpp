@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <type_traits>
 
@@ -9,6 +10,19 @@
 #include "facing_feature.hpp"
 
 namespace touchstone {
+
+void Contact::shift_points(const Vec3& by, double deeper, double same) {
+  std::size_t kept = 0;
+  for (const ContactPoint& point : points()) {
+    const ContactPoint moved{point.position + by, point.depth + deeper};
+    const bool is_known = std::any_of(
+        points_.begin(), points_.begin() + static_cast<std::ptrdiff_t>(kept),
+        [&](const ContactPoint& p) { return (p.position - moved.position).norm() <= same; });
+    if (!is_known) points_[kept++] = moved;
+  }
+  count_ = kept;
+}
+
 namespace {
 
 using Kind = FacingFeature::Kind;

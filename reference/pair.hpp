@@ -50,17 +50,32 @@ class SearchRoutine {
   const Body& b_;
 };
 
-/// Both bodies in one frame, about B's centre.
+/// Both bodies in one frame, about B's centre; of rounded ones the cores. Balls of radius ρ added
+/// to a body take ρ from its gap along every direction: the normals stay, and so does all that
+/// compares gaps.
 template <class Other>
 struct PosedPair {
   PosedCylinder a;
   decltype(posed(std::declval<Other>(), Pose(), Vec3())) b;
   const Vec3& origin;  ///< of the frame, in the world
   bool exchanged;
+  double rounding_a, rounding_b;
 
+  /// By which the cores are farther apart.
+  double rounding() const { return rounding_a + rounding_b; }
   double lengths() const {
     return (a.centre - b.centre).cwiseAbs().sum() + touchstone::lengths(a).sum +
-           touchstone::lengths(b).sum;
+           touchstone::lengths(b).sum + rounding();
+  }
+  /// Turns a contact of the cores into that of the bodies: the surface of each moves out by its
+  /// rounding.
+  void add_rounding(Contact& contact) const {
+    if (rounding() == 0) [[likely]]
+      return;
+    constexpr double same = 1e-14;  // of all lengths: corners of a core that is nearly a point
+    contact.signed_distance -= rounding();
+    contact.shift_points((rounding_b - rounding_a) / 2 * contact.normal, rounding(),
+                         same * lengths());
   }
   /// Turns a normal from this B to this A into that between the bodies as they were given, and
   /// back.
@@ -73,8 +88,12 @@ template <class Other>
 inline PosedPair<Other> posed_pair(const Cylinder& a, const Pose& pose_a, const Other& b,
                                    const Pose& pose_b) {
   const Vec3& origin = pose_b.position();
-  return {posed(a, pose_a, pose_a.position() - origin), posed(b, pose_b, Vec3::Zero()), origin,
-          false};
+  return {posed(a, pose_a, pose_a.position() - origin),
+          posed(b, pose_b, Vec3::Zero()),
+          origin,
+          false,
+          a.rounding(),
+          rounding_in(b)};
 }
 /// Cylinders in a fixed order, the one with the smaller radius first, so that the answer does not
 /// depend on how they were given.
@@ -83,13 +102,19 @@ inline PosedPair<Cylinder> posed_pair(const Cylinder& a, const Pose& pose_a, con
   const auto key = [](const Cylinder& s, const Pose& p) {
     const Vec3& x = p.position();
     const auto& q = p.orientation();
-    return std::make_tuple(s.half_length(), x.x(), x.y(), x.z(), q.w(), q.x(), q.y(), q.z());
+    return std::make_tuple(s.half_length(), s.rounding(), x.x(), x.y(), x.z(), q.w(), q.x(), q.y(),
+                           q.z());
   };
   const bool exchanged =
       a.radius() != b.radius() ? a.radius() > b.radius() : key(a, pose_a) > key(b, pose_b);
   const Pose &first = exchanged ? pose_b : pose_a, &second = exchanged ? pose_a : pose_b;
-  return {posed(exchanged ? b : a, first, first.position() - second.position()),
-          posed(exchanged ? a : b, second, Vec3::Zero()), second.position(), exchanged};
+  const Cylinder &of_first = exchanged ? b : a, &of_second = exchanged ? a : b;
+  return {posed(of_first, first, first.position() - second.position()),
+          posed(of_second, second, Vec3::Zero()),
+          second.position(),
+          exchanged,
+          of_first.rounding(),
+          of_second.rounding()};
 }
 
 // Lengths so large or small that their powers overflow or vanish are brought into range by a power
@@ -144,11 +169,19 @@ class ScaledBodies {
   double size(double length) const { return std::max(scaled(length), vanishing); }
   Plane scaled(const Plane& s) const { return {s.unit_normal(), scaled(s.unit_displacement())}; }
   Sphere scaled(const Sphere& s) const { return Sphere(size(s.radius())); }
-  Cylinder scaled(const Cylinder& s) const { return {size(s.radius()), size(s.half_length())}; }
+  Cylinder scaled(const Cylinder& s) const {
+    const double r = size(s.radius()), h = size(s.half_length());
+    return {r, h, rounding(s.rounding(), std::min(r, h))};
+  }
   Capsule scaled(const Capsule& s) const { return {size(s.radius()), size(s.half_length())}; }
   Box scaled(const Box& s) const {
     const Vec3& e = s.half_extents();
-    return Box(Vec3(size(e.x()), size(e.y()), size(e.z())));
+    const Vec3 half(size(e.x()), size(e.y()), size(e.z()));
+    return Box(half, rounding(s.rounding(), half.minCoeff()));
+  }
+  /// At most what leaves a core of a size that does not vanish.
+  double rounding(double given, double least) const {
+    return std::max(0.0, std::min(scaled(given), least - vanishing));
   }
   Convex scaled(const Convex& s) const { return s.scaled(-exponent_); }
   /// The position less the origin; a difference that overflows is scaled before it is taken.
@@ -265,6 +298,7 @@ SignedDistance find_signed_distance(const Cylinder& a, const Pose& pose_a, const
     return answer_scaled(0, again, a, pose_a, b, pose_b);
   }
   SignedDistance found = Routine(pair.a, pair.b).find(no_early_exit);
+  found.value -= pair.rounding();
   pair.turn_as_given(found.normal);
   return found;
 }
@@ -278,6 +312,7 @@ CertifiedDistance find_certified_distance(const Cylinder& a, const Pose& pose_a,
     return answer_scaled(0, again, a, pose_a, b, pose_b);
   }
   CertifiedDistance found = Routine(pair.a, pair.b).find_certified();
+  found.value -= pair.rounding();
   pair.turn_as_given(found.normal);
   found.error_bound += rounding_part * pair.lengths();
   return found;
@@ -290,7 +325,7 @@ bool find_overlap(const Cylinder& a, const Pose& pose_a, const Other& b, const P
     const auto again = [](double, const auto&... bodies) { return overlaps(bodies...); };
     return answer_scaled(0, again, a, pose_a, b, pose_b);
   }
-  return Routine(pair.a, pair.b).find(0).value <= 0;
+  return Routine(pair.a, pair.b).find(pair.rounding()).value <= pair.rounding();
 }
 
 /// Makes a contact, without points yet, that along a normal: with points if it is within the
@@ -330,6 +365,7 @@ bool make_hinted_contact(Contact& result, const SignedDistance& found, const Rou
   const Vec3 previous = (previous_normal / largest).normalized();
   // Points are as exact as their coordinates in the world.
   constexpr double epsilon = std::numeric_limits<double>::epsilon();
+  const double of_cores = contact_threshold + pair.rounding();
   const double tolerance =
       contact_threshold + rounding_part * pair.lengths() + epsilon * pair.origin.cwiseAbs().sum();
   for (const SignedDistance& tie : {nearest_tie(pair.a, pair.b, found, contact_threshold, previous),
@@ -337,7 +373,7 @@ bool make_hinted_contact(Contact& result, const SignedDistance& found, const Rou
     if (tie.normal == found.normal) break;
     if (!(tie.value >= found.value - contact_threshold)) continue;
     result.clear_points();
-    make_contact(result, tie, routine, pair.origin, contact_threshold, range);
+    make_contact(result, tie, routine, pair.origin, of_cores, range);
     if (meet_at_points(pair.a, pair.b, result, pair.origin, tolerance)) return true;
   }
   result.clear_points();
@@ -354,13 +390,15 @@ template <class Routine, class Other>
 Contact contact_in_range(const PosedPair<Other>& pair, double contact_threshold,
                          const Vec3* previous_normal, PointRange range) {
   const Routine routine(pair.a, pair.b);
-  const SignedDistance found = routine.find(contact_threshold);
+  const double of_cores = contact_threshold + pair.rounding();
+  const SignedDistance found = routine.find(of_cores);
   Contact result;
-  if (!(previous_normal && found.value <= contact_threshold &&
+  if (!(previous_normal && found.value <= of_cores &&
         make_hinted_contact(result, found, routine, pair, contact_threshold, *previous_normal,
                             range))) {
-    make_contact(result, found, routine, pair.origin, contact_threshold, range);
+    make_contact(result, found, routine, pair.origin, of_cores, range);
   }
+  pair.add_rounding(result);
   pair.turn_as_given(result.normal);
   return result;
 }

@@ -41,30 +41,35 @@ struct HalfExtent {
   Vec3 n;
 
   double operator()(const Cylinder& s) const {
-    return s.radius() * std::hypot(n.x(), n.y()) + s.half_length() * std::abs(n.z());
+    return s.core_radius() * std::hypot(n.x(), n.y()) + s.core_half_length() * std::abs(n.z()) +
+           s.rounding() * n.norm();
   }
   double operator()(const Capsule& s) const {
     return s.radius() * n.norm() + s.half_length() * std::abs(n.z());
   }
   double operator()(const Sphere& s) const { return s.radius() * n.norm(); }
-  double operator()(const Box& s) const { return s.half_extents().dot(n.cwiseAbs()); }
+  double operator()(const Box& s) const {
+    return s.core_half_extents().dot(n.cwiseAbs()) + s.rounding() * n.norm();
+  }
   double operator()(const Convex& s) const {
     double farthest = -std::numeric_limits<double>::infinity();
     for (const Vec3& v : s.vertices()) farthest = std::max(farthest, (v - s.middle()).dot(n));
-    return farthest;
+    return farthest + s.rounding() * n.norm();
   }
   double operator()(const Plane&) const { return std::numeric_limits<double>::infinity(); }
 };
 
 struct Circumradius {
-  double operator()(const Cylinder& s) const { return std::hypot(s.radius(), s.half_length()); }
+  double operator()(const Cylinder& s) const {
+    return std::hypot(s.core_radius(), s.core_half_length()) + s.rounding();
+  }
   double operator()(const Capsule& s) const { return s.radius() + s.half_length(); }
   double operator()(const Sphere& s) const { return s.radius(); }
-  double operator()(const Box& s) const { return s.half_extents().norm(); }
+  double operator()(const Box& s) const { return s.core_half_extents().norm() + s.rounding(); }
   double operator()(const Convex& s) const {
     double farthest = 0;
     for (const Vec3& v : s.vertices()) farthest = std::max(farthest, (v - s.middle()).norm());
-    return farthest;
+    return farthest + s.rounding();
   }
   double operator()(const Plane&) const { return std::numeric_limits<double>::infinity(); }
 };

@@ -54,10 +54,13 @@ struct Distance {
 
   double across() const { return std::hypot(p.x(), p.y()); }
 
+  // Of a rounded body, the distance from its core, less the rounding.
+
   double operator()(const Cylinder& s) const {
-    const double side = across() - s.radius(), cap = std::abs(p.z()) - s.half_length();
-    return side > 0 || cap > 0 ? std::hypot(std::max(side, 0.0), std::max(cap, 0.0))
-                               : std::max(side, cap);
+    const double side = across() - s.core_radius(), cap = std::abs(p.z()) - s.core_half_length();
+    const double core = side > 0 || cap > 0 ? std::hypot(std::max(side, 0.0), std::max(cap, 0.0))
+                                            : std::max(side, cap);
+    return core - s.rounding();
   }
   double operator()(const Capsule& s) const {
     const double beyond = std::max(std::abs(p.z()) - s.half_length(), 0.0);
@@ -65,8 +68,8 @@ struct Distance {
   }
   double operator()(const Sphere& s) const { return std::hypot(p.x(), p.y(), p.z()) - s.radius(); }
   double operator()(const Box& s) const {
-    const Vec3 beyond = p.cwiseAbs() - s.half_extents();
-    return outside_of_all(beyond.x(), beyond.y(), beyond.z());
+    const Vec3 beyond = p.cwiseAbs() - s.core_half_extents();
+    return outside_of_all(beyond.x(), beyond.y(), beyond.z()) - s.rounding();
   }
   double operator()(const Convex& s) const {
     // In multiples of a power of two near the distance's size, so that squares do not overflow.
@@ -84,7 +87,7 @@ struct Distance {
     // a thin face has to tell. Far away, rounding would.
     const bool is_near = ((p - s.middle()).cwiseAbs().array() <= s.half_extents().array()).all();
     const bool is_inside = is_near && !s.is_flat() && nearest.dot(nearest - mean) > 0;
-    return unit * (is_inside ? -nearest.norm() : nearest.norm());
+    return unit * (is_inside ? -nearest.norm() : nearest.norm()) - s.rounding();
   }
   double operator()(const Plane& s) const { return s.unit_normal().dot(p) - s.unit_displacement(); }
 };
