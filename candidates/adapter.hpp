@@ -62,8 +62,9 @@ void release(Prepared* prepared) {
 
 /// The plug-in of these candidates.
 template <std::size_t count>
-ts_plugin plugin_of(const ts_candidate (&candidates)[count]) {
-  return {TOUCHSTONE_INTERFACE_VERSION, static_cast<int>(count), candidates, nullptr, 0};
+ts_plugin plugin_of(const ts_candidate (&candidates)[count],
+                    decltype(ts_plugin::roundings) roundings = nullptr) {
+  return {TOUCHSTONE_INTERFACE_VERSION, static_cast<int>(count), candidates, nullptr, 0, roundings};
 }
 
 }  // namespace touchstone::adapter

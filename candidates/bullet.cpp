@@ -11,7 +11,11 @@
 //              rounds the edges; for capsule and sphere the radius is the margin.
 //              btConvexHullShape has it outside: a convex body is 0.04 larger on all sides.
 //              bullet-margin-0: setMargin(0) on cylinder, box and hull, for sharp edges.
-//              bullet-hull:N: btConvexHullShape of the prism's corners with margin 0.
+//              What they model is so the body with that rounding, and nothing else: GJK works on
+//              the shapes without margins, and EPA and the plane's algorithm on
+//              localGetSupportingVertex, which of a cylinder adds a ball of the margin, too. A
+//              shape that is given with a rounding gets it as its margin. bullet-hull:N:
+//              btConvexHullShape of the prism's corners with margin 0.
 // Conventions  m_normalWorldOnB points from B to A of the manifold; its order is checked. A point
 //              is midway between Bullet's positions on A and on B.
 // Threshold    Bullet also reports points up to its contact breaking threshold apart (at most
@@ -77,7 +81,7 @@ std::unique_ptr<btCollisionShape> make_shape(const ts_shape& shape, const Settin
   btScalar s[4];
   std::transform(shape.size, shape.size + 4, s, to_scalar);
   const auto with_margin = [&](auto made) -> std::unique_ptr<btCollisionShape> {
-    if (setting.sharp) made->setMargin(0);
+    if (setting.sharp || shape.rounding > 0) made->setMargin(to_scalar(shape.rounding));
     return made;
   };
   switch (shape.kind) {
@@ -152,6 +156,9 @@ class Pair {
   Pair(const Pair&) = delete;
   Pair& operator=(const Pair&) = delete;
 
+  double rounding_a() const { return rounding(*shape_a_); }
+  double rounding_b() const { return rounding(*shape_b_); }
+
   void query(const ts_pose& a, const ts_pose& b, ts_answer& answer) {
     for (int i = 0; i < manifolds_.size(); ++i) manifolds_[i]->clearManifold();
     const btTransform at_a = to_transform(a);
@@ -171,6 +178,14 @@ class Pair {
   }
 
  private:
+  /// The margin of a shape whose edges it rounds; that of a sphere or capsule is its radius.
+  static double rounding(const btCollisionShape& shape) {
+    const int type = shape.getShapeType();
+    const bool has_edges = type == CYLINDER_SHAPE_PROXYTYPE || type == BOX_SHAPE_PROXYTYPE ||
+                           type == CONVEX_HULL_SHAPE_PROXYTYPE;
+    return has_edges ? shape.getMargin() : 0;
+  }
+
   void process(const btTransform& a) {
     object_a_.setWorldTransform(a);
     const btCollisionObjectWrapper wrap_a = wrap(object_a_), wrap_b = wrap(object_b_);
@@ -227,6 +242,11 @@ void query(ts_prepared* prepared, const ts_pose* a, const ts_pose* b, const doub
   prepared->pair.query(*a, *b, *answer);
 }
 
+[[maybe_unused]] void roundings(const ts_prepared* prepared, double* of_a, double* of_b) {
+  *of_a = prepared->pair.rounding_a();
+  *of_b = prepared->pair.rounding_b();
+}
+
 using touchstone::adapter::release, touchstone::adapter::supports_all,
     touchstone::adapter::supports_primitives;
 
@@ -251,6 +271,7 @@ constexpr Setting sharp{true, false}, rocked{false, true};
 
 ts_prepared* prepare_hull(void*, const ts_shape* a, const ts_shape* b, double threshold,
                           double sides) {
+  if (a->rounding > 0 || b->rounding > 0) return nullptr;  // the model's distance has none
   const int n = static_cast<int>(sides);
   const auto prism = [n](double radius, double half_length) {
     return touchstone::inscribed_prism(n, radius, half_length);
@@ -284,8 +305,8 @@ const ts_candidate candidates[] = {
      prepare_hull, query, release, hull_distance, nullptr}};
 
 // In single precision the last two would show nothing new.
-const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, single_precision ? 2 : 4, candidates,
-                          nullptr, 0};
+const ts_plugin plugin = {
+    TOUCHSTONE_INTERFACE_VERSION, single_precision ? 2 : 4, candidates, nullptr, 0, roundings};
 
 #endif
 

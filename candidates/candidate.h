@@ -23,8 +23,8 @@
 extern "C" {
 #endif
 
-/* The version of this header. Plug-ins made for versions 3 and 4, which know no convex bodies,
- * load, too, and are not asked about those; others are rejected. */
+/* The version of this header. Plug-ins made for versions 3 and 4, which know no convex bodies and no
+ * roundings, load, too, and are not asked about those; others are rejected. */
 #define TOUCHSTONE_INTERFACE_VERSION 5
 #define TOUCHSTONE_MAX_POINTS 16
 #define TOUCHSTONE_EXPORT __attribute__((visibility("default")))
@@ -40,7 +40,7 @@ typedef enum ts_shape_kind {
                   space, as a triangle, with two faces that look in opposite directions */
 } ts_shape_kind;
 
-/* What follows `size` is of a convex body, and else zero. It is there during `prepare` only: copy
+/* Vertices and faces are of a convex body, and else zero. They are there during `prepare` only: copy
  * what you need. */
 typedef struct ts_shape {
   ts_shape_kind kind;
@@ -50,6 +50,10 @@ typedef struct ts_shape {
                              counterclockwise seen from outside; all of one plane are one face */
   int vertex_count;       /* 3 to 4096 */
   int face_count;
+  /* Edges and corners are rounded by a ball of this radius: the body is all points within it of a
+   * core, which is a cylinder or a box whose sizes are smaller by it (size has the outer ones, and it
+   * is at most the smallest), or the hull. Zero but where ts_plugin.roundings is set. */
+  double rounding;
 } ts_shape;
 
 typedef struct ts_pose {
@@ -140,6 +144,12 @@ typedef struct ts_plugin {
   /* Non-zero: is never forked. Every session then is a process that has loaded the plug-in anew,
    * which takes as long as loading does. */
   int unforked;
+
+  /* Of version 5. Writes by which radii the engine rounds the two bodies that it was given: what it
+   * models is these bodies with such a rounding (ts_shape), so that the report can separate the
+   * model's error from the solver's. NULL: the candidates know no rounding, and are not asked about
+   * shapes that have one. */
+  void (*roundings)(const ts_prepared* prepared, double* of_a, double* of_b);
 } ts_plugin;
 
 /* The only symbol that a plug-in exports. The result stays valid. */

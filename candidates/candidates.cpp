@@ -291,7 +291,7 @@ class Registry {
 
 struct ToTsShape {
   ts_shape operator()(const Cylinder& s) const {
-    return sized(TS_CYLINDER, s.radius(), s.half_length());
+    return rounded(sized(TS_CYLINDER, s.radius(), s.half_length()), s.rounding());
   }
   ts_shape operator()(const Plane& s) const {
     const Vec3& n = s.unit_normal();
@@ -303,7 +303,7 @@ struct ToTsShape {
   }
   ts_shape operator()(const Box& s) const {
     const Vec3& h = s.half_extents();
-    return sized(TS_BOX, h.x(), h.y(), h.z());
+    return rounded(sized(TS_BOX, h.x(), h.y(), h.z()), s.rounding());
   }
   ts_shape operator()(const Convex& s) const {
     static_assert(sizeof(Vec3) == 3 * sizeof(double));
@@ -312,6 +312,10 @@ struct ToTsShape {
     shape.faces = s.face_list().data();
     shape.vertex_count = static_cast<int>(s.vertices().size());
     shape.face_count = static_cast<int>(s.faces().size());
+    return rounded(shape, s.rounding());
+  }
+  static ts_shape rounded(ts_shape shape, double rounding) {
+    shape.rounding = rounding;
     return shape;
   }
 };

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "candidates/testing/plain_contacts.hpp"
+#include "oracle/truth.hpp"
 
 namespace touchstone {
 namespace {
@@ -37,6 +38,67 @@ TEST(Bullet, RoundsSharpEdges) {  // godot-jolt #516
   const Answer sharp = answer("bullet-margin-0", c);
   ASSERT_EQ(sharp.status, TS_CONTACT);
   EXPECT_NEAR(sharp.signed_distance, -0.01, 1e-6);
+}
+
+/// Tilted, level, and with a hull: what Bullet rounds by its margins, at every kind of feature.
+std::vector<Configuration> against_rounded_edges() {
+  const Quaternion tilted(Eigen::AngleAxisd(0.6, Vec3(1, 0.3, 0.2).normalized()));
+  const std::vector<Vec3> corners{{-1, -1, 0}, {2, -1, 0.25}, {0, 2, -0.25}, {0, 0, -3}};
+  std::vector<Configuration> result;
+  for (const double height : {1.0, 1.4, 1.8, 2.2}) {
+    for (const Shape& b : {Shape(Box({0.5, 0.7, 0.6})), Shape(Cylinder(0.6, 0.5)),
+                           Shape(oracle::convex_hull(corners)), Shape(Plane({0, 0, 1}, 0.1)),
+                           Shape(Capsule(0.3, 0.5))}) {
+      result.push_back({Cylinder(0.5, 1), Pose({0.3, 0.2, height}, tilted), b, Pose()});
+    }
+  }
+  return result;
+}
+
+TEST(Bullet, SolvesTheBodiesThatItsMarginsRound) {
+  constexpr double solved = 1e-5;  // metres; GJK's and EPA's tolerance
+  int contacts = 0;
+  for (const Configuration& c : against_rounded_edges()) {
+    for (const char* name : {"bullet", "bullet-margin-0"}) {
+      const Answer a = answer(name, c, 1);
+      const bool is_sharp = std::string(name) != "bullet";
+      ASSERT_EQ(a.roundings.has_value(), !is_sharp);
+      Configuration model = c;
+      if (!is_sharp) {
+        model = {std::get<Cylinder>(with_rounding(c.a, (*a.roundings)[0])), c.pose_a,
+                 with_rounding(c.b, (*a.roundings)[1]), c.pose_b};
+        EXPECT_NEAR((*a.roundings)[0], 0.04, 1e-9);
+      }
+      if (a.status != TS_CONTACT) continue;
+      ++contacts;
+      EXPECT_NEAR(a.signed_distance, oracle::truth(model).signed_distance.midpoint(), solved)
+          << name << " " << testing::PrintToString(c.pose_a.position().z()) << " "
+          << shape_name(c.b);
+    }
+  }
+  EXPECT_GE(contacts, 16);
+}
+
+TEST(Bullet, HasAGivenRoundingAsItsMargin) {
+  for (const Configuration& sharp : against_rounded_edges()) {
+    const Configuration c{Cylinder(0.5, 1, 0.2), sharp.pose_a, with_rounding(sharp.b, 0.1),
+                          sharp.pose_b};
+    for (const char* name : {"bullet", "bullet-margin-0", "reference"}) {
+      const Answer a = answer(name, c, 1);
+      EXPECT_FALSE(a.roundings) << name;  // it is modelled as it was given
+      if (a.status != TS_CONTACT) continue;
+      EXPECT_NEAR(a.signed_distance, oracle::truth(c).signed_distance.midpoint(), 1e-5) << name;
+    }
+  }
+}
+
+TEST(Engines, ThatKnowNoRoundingSayThatTheyDoNotSupportIt) {
+  const Configuration c{Cylinder(0.5, 1, 0.1), Pose({0, 0, 0.9}), Plane({0, 0, 1}, 0), Pose()};
+  for (const char* name : {"ode", "fcl", "libccd-mpr", "prism:16", "bullet-hull:16"}) {
+    const Answer a = answer(name, c);
+    EXPECT_EQ(a.status, TS_UNSUPPORTED) << name;
+    EXPECT_EQ(a.reason, "does not round bodies in this way") << name;
+  }
 }
 
 TEST(Bullet, TakesACapsulesRadiusForItsMargin) {  // bullet3 #928

@@ -49,6 +49,7 @@ struct ts_prepared {
   virtual void query(const ts_pose& a, const ts_pose& b, const Vec3* previous_normal,
                      ts_answer& answer) const = 0;
   double threshold = 0;
+  double rounding_a = 0, rounding_b = 0;
 };
 
 namespace {
@@ -103,12 +104,12 @@ touchstone::Convex to_convex(const ts_shape& shape) {
   for (int i = 0; i < shape.vertex_count; ++i) {
     vertices.emplace_back(Eigen::Map<const Vec3>(shape.vertices + std::ptrdiff_t{3} * i));
   }
-  return {std::move(vertices), touchstone::faces_of(shape)};
+  return {std::move(vertices), touchstone::faces_of(shape), shape.rounding};
 }
 #endif
 
 ts_prepared* prepare(void*, const ts_shape* a, const ts_shape* b, double threshold, double) {
-  const Cylinder cylinder(a->size[0], a->size[1]);
+  const Cylinder cylinder(a->size[0], a->size[1], a->rounding);
   const double* s = b->size;
   ts_prepared* prepared = nullptr;
   switch (b->kind) {
@@ -122,10 +123,10 @@ ts_prepared* prepare(void*, const ts_shape* a, const ts_shape* b, double thresho
       prepared = new PreparedPair(cylinder, touchstone::Capsule(s[0], s[1]));
       break;
     case TS_CYLINDER:
-      prepared = new PreparedPair(cylinder, Cylinder(s[0], s[1]));
+      prepared = new PreparedPair(cylinder, Cylinder(s[0], s[1], b->rounding));
       break;
     case TS_BOX:
-      prepared = new PreparedPair(cylinder, touchstone::Box({s[0], s[1], s[2]}));
+      prepared = new PreparedPair(cylinder, touchstone::Box({s[0], s[1], s[2]}, b->rounding));
       break;
     case TS_CONVEX:
 #ifndef TOUCHSTONE_SINGLE_PRECISION
@@ -133,8 +134,17 @@ ts_prepared* prepare(void*, const ts_shape* a, const ts_shape* b, double thresho
 #endif
       break;
   }
-  if (prepared) prepared->threshold = threshold;
+  if (!prepared) return nullptr;
+  prepared->threshold = threshold;
+  prepared->rounding_a = a->rounding;
+  prepared->rounding_b = b->rounding;
   return prepared;
+}
+
+/// They are answered as they were given.
+void roundings(const ts_prepared* prepared, double* of_a, double* of_b) {
+  *of_a = prepared->rounding_a;
+  *of_b = prepared->rounding_b;
 }
 
 void query(ts_prepared* prepared, const ts_pose* a, const ts_pose* b, const double* previous_normal,
@@ -151,7 +161,7 @@ void query(ts_prepared* prepared, const ts_pose* a, const ts_pose* b, const doub
 
 const ts_candidate candidates[] = {{name, TOUCHSTONE_VERSION, settings, nullptr, nullptr, supports,
                                     prepare, query, release, nullptr, nullptr}};
-const ts_plugin plugin = touchstone::adapter::plugin_of(candidates);
+const ts_plugin plugin = touchstone::adapter::plugin_of(candidates, roundings);
 
 }  // namespace
 

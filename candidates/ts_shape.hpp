@@ -20,7 +20,7 @@ inline constexpr std::size_t shape_kinds = TS_CONVEX + 1;
 /// A shape of any kind that has sizes.
 constexpr ts_shape sized(ts_shape_kind kind, double first, double second = 0, double third = 0,
                          double fourth = 0) {
-  return {kind, {first, second, third, fourth}, nullptr, nullptr, 0, 0};
+  return {kind, {first, second, third, fourth}, nullptr, nullptr, 0, 0, 0};
 }
 
 /// Coordinates of a convex body's vertices; else none.
@@ -54,6 +54,7 @@ inline bool same(const ts_shape& x, const ts_shape& y) {
   using Bits = std::array<std::uint64_t, 4>;
   const auto bits = [](double coordinate) { return std::bit_cast<std::uint64_t>(coordinate); };
   return x.kind == y.kind && std::bit_cast<Bits>(x.size) == std::bit_cast<Bits>(y.size) &&
+         bits(x.rounding) == bits(y.rounding) &&
          std::ranges::equal(coordinates_of(x), coordinates_of(y), {}, bits, bits) &&
          std::ranges::equal(face_list_of(x), face_list_of(y));
 }

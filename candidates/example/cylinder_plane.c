@@ -79,6 +79,6 @@ const ts_plugin* touchstone_plugin(void) {
                                   NULL,        NULL,  supports,
                                   prepare,     query, release,
                                   NULL,        NULL};
-  static const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 1, &me, NULL, 0};
+  static const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 1, &me, NULL, 0, NULL};
   return &plugin;
 }

@@ -112,6 +112,13 @@ std::vector<Answer> CandidateProcess::ask(std::span<const Configuration> configu
     ++at;
     suspects = 0;
   }
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    const Configuration& c = configurations[i];
+    const bool is_rounded = c.a.rounding() > 0 || rounding_of(c.b) > 0;
+    if (result[i].status == TS_UNSUPPORTED && is_rounded && result[i].reason.empty()) {
+      result[i].reason = "does not round bodies in this way";
+    }
+  }
   return result;
 }
 

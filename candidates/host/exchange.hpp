@@ -2,14 +2,17 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <sys/types.h>
 
+#include "candidates/answer.hpp"
 #include "candidates/ts_shape.hpp"
 
 namespace touchstone {
@@ -30,11 +33,25 @@ struct Question {
   double previous_normal[3];
 };
 
+/// What a candidate says of its model of a pair (Answer). NaN: nothing.
+struct Modelled {
+  static constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+  double distance = unknown;
+  double roundings[2] = {unknown, unknown};
+
+  void copy_to(Answer& answer) const {
+    if (!std::isnan(distance)) answer.model_distance = distance;
+    const bool is_known = !std::isnan(roundings[0]) && !std::isnan(roundings[1]);
+    if (is_known) answer.roundings = {roundings[0], roundings[1]};
+  }
+};
+
 struct Slot {
   ts_answer answer;
-  double model_distance;  ///< NaN if unknown
-  double seconds;         ///< processor time of preparing, querying and releasing
-  std::uint64_t seal;     ///< see seal_of
+  Modelled modelled;
+  double seconds;      ///< processor time of preparing, querying and releasing
+  std::uint64_t seal;  ///< see seal_of
 };
 
 /// Number of questions and answers in one batch.
@@ -165,6 +182,7 @@ struct Description {
   // Of a command; empty and false of a plug-in.
   char precision[8], runs[8];
   bool in_frames;
+  bool says_roundings;  ///< takes rounded bodies, and says how it rounds them
 };
 
 /// A text that may lack its end.
@@ -188,11 +206,14 @@ SessionCommand receive(int socket);
 
 class SpokenCommand;
 
+/// ts_plugin::roundings
+using Roundings = decltype(ts_plugin::roundings);
+
 /// One candidate's session in this process: executes commands until it is told to finish or dies.
 /// `spoken` is what answers if that is a command, which measures its time itself; else null.
-[[noreturn]] void serve_session(const ts_candidate& candidate, SpokenCommand* spoken,
-                                const SessionCommand& begin, int socket, const Questions& questions,
-                                Exchange& exchange);
+[[noreturn]] void serve_session(const ts_candidate& candidate, Roundings roundings,
+                                SpokenCommand* spoken, const SessionCommand& begin, int socket,
+                                const Questions& questions, Exchange& exchange);
 
 /// Descriptors of a plug-in's process besides the standard three, when it is started: its end of
 /// the socket, and the shared memory.

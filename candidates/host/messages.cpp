@@ -224,6 +224,7 @@ Json numbers(const double (&x)[size]) {
 Json shape_json(const ts_shape& s) {
   const double* const size = s.size;
   Json json = {{"shape", shape_names[s.kind]}};
+  if (s.rounding > 0) json["rounding"] = s.rounding;
   switch (s.kind) {
     case TS_CYLINDER:
     case TS_CAPSULE:
@@ -370,12 +371,16 @@ Description read_hello(const std::string& line) {
     d.supports[found - std::begin(shape_names)] = true;
   }
   if (json.contains("parameter")) read_parameter(json["parameter"], d);
+  const Json roundings = json.value("roundings", Json(false));
+  if (!roundings.is_boolean()) refuse_member("roundings", roundings, "true or false");
+  d.says_roundings = roundings.get<bool>();
   d.in_frames = choice_member(json, "format", {"frames", "lines"}) == "frames";
   return d;
 }
 
-Request prepare_request(Format format, std::uint64_t ticket, const PairOfShapes& p) {
-  Request request{format, Operation::prepare, ticket, 1, ""};
+Request prepare_request(Format format, std::uint64_t ticket, const PairOfShapes& p,
+                        bool has_roundings) {
+  Request request{format, Operation::prepare, ticket, 1, "", has_roundings};
   if (format == Format::lines) {
     request.text = request_line(request, Json::array({{{"handle", p.handle},
                                                        {"threshold", number(p.threshold)},
@@ -392,6 +397,10 @@ Request prepare_request(Format format, std::uint64_t ticket, const PairOfShapes&
   out.put(p.a);
   out.put(p.b);
   for (const double x : coordinates_of(p.b)) out.put(x);
+  if (has_roundings) {
+    out.put(p.a.rounding);
+    out.put(p.b.rounding);
+  }
   request.text = out.take();
   return request;
 }
@@ -437,7 +446,7 @@ std::size_t Request::answer_size() const {
   if (format == Format::lines) return 0;
   switch (operation) {
     case Operation::prepare:
-      return header_size + 4 * std::size_t{count};
+      return header_size + (has_roundings ? 20 : 4) * std::size_t{count};
     case Operation::query:
       return header_size + answer_bytes * std::size_t{count};
     case Operation::time:
@@ -448,15 +457,24 @@ std::size_t Request::answer_size() const {
   return header_size;
 }
 
-bool read_prepared(const Request& request, const std::string& answer) {
+std::optional<Prepared> read_prepared(const Request& request, const std::string& answer) {
+  Prepared prepared{};
   if (request.format == Format::frames) {
-    const auto supported = Reader(request, answer).get<std::uint32_t>();
+    Reader in(request, answer);
+    const auto supported = in.get<std::uint32_t>();
     if (supported > 1) refuse("it prepared with " + std::to_string(supported));
-    return supported == 1;
+    for (double& x : prepared.roundings) x = request.has_roundings ? in.get<double>() : 0;
+    return supported == 1 ? std::optional(prepared) : std::nullopt;
   }
-  const Json supported = list_member(answer_line(request, answer), "supported", 1)[0];
+  const Json line = answer_line(request, answer);
+  const Json supported = list_member(line, "supported", 1)[0];
   if (!supported.is_boolean()) refuse("its \"supported\" has what is neither true nor false");
-  return supported.get<bool>();
+  if (!supported.get<bool>()) return std::nullopt;
+  if (!request.has_roundings) return prepared;
+  const Json both = list_member(line, "roundings", 1)[0];
+  if (!both.is_array() || both.size() != 2) refuse("its \"roundings\" are no pair of numbers");
+  for (std::size_t i = 0; i < 2; ++i) prepared.roundings[i] = number_of(both[i], "roundings");
+  return prepared;
 }
 
 Answer read_answer(const Request& request, const std::string& answer) {

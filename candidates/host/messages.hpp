@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -55,11 +56,13 @@ struct Request {
   std::uint64_t ticket;
   std::uint32_t count;  ///< of entries
   std::string text;
+  bool has_roundings = false;  ///< of `prepare`, by a command that says them
 
   /// Bytes of its answer, with their length; 0: it is a line.
   std::size_t answer_size() const;
 };
-Request prepare_request(Format format, std::uint64_t ticket, const PairOfShapes& pair);
+Request prepare_request(Format format, std::uint64_t ticket, const PairOfShapes& pair,
+                        bool has_roundings = false);
 /// Of `query`, or of `time` with so many passes.
 Request query_request(Format format, std::uint64_t ticket, std::span<const Poses> poses,
                       std::uint32_t passes = 0);
@@ -68,8 +71,13 @@ Request release_request(Format format, std::uint64_t ticket,
 
 // Readers of the answer to a request: a whole frame, or a line without its end. Throw Garbage.
 
-/// Is the pair supported?
-bool read_prepared(const Request& request, const std::string& answer);
+/// A pair that is supported, with the radii by which A and B are rounded; zero if they are not
+/// said.
+struct Prepared {
+  double roundings[2];
+};
+/// None if the pair is not supported.
+std::optional<Prepared> read_prepared(const Request& request, const std::string& answer);
 /// Of a query of one entry.
 Answer read_answer(const Request& request, const std::string& answer);
 /// Nanoseconds of all passes: finite and not negative.

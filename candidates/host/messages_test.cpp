@@ -110,7 +110,7 @@ TEST(Frames, LieAsSpecified) {
 
 constexpr double corners[] = {0, 0, 0, 0.1 + 0.2, 0, 0, 0, -1e-300, 1};
 constexpr int both_sides[] = {3, 0, 1, 2, 3, 0, 2, 1};
-constexpr ts_shape triangle{TS_CONVEX, {}, corners, both_sides, 3, 2};
+constexpr ts_shape triangle{TS_CONVEX, {}, corners, both_sides, 3, 2, 0};
 
 TEST(Frames, HaveAConvexBodysVerticesAfterTheEntries) {
   const PairOfShapes pair{7, 0, 0, sized(TS_CYLINDER, 0.5, 1), triangle};

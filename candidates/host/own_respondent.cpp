@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <dlfcn.h>
 #include <stdexcept>
 
@@ -12,17 +11,18 @@
 namespace touchstone {
 namespace {
 
-const ts_candidate& load(const Candidate& candidate) {
+const ts_plugin& load(const Candidate& candidate) {
   const Candidate::Plugin& plugin = *candidate.plugin();
   void* const library = dlopen(plugin.file.c_str(), RTLD_NOW | RTLD_LOCAL);
   void* const entry = library ? dlsym(library, "touchstone_plugin") : nullptr;
   if (!entry) throw std::runtime_error(dlerror());
-  return reinterpret_cast<decltype(&touchstone_plugin)>(entry)()->candidates[plugin.index];
+  return *reinterpret_cast<decltype(&touchstone_plugin)>(entry)();
 }
 
 class OwnRespondent : public Respondent {
  public:
-  explicit OwnRespondent(const Candidate& candidate) : routine_(load(candidate), candidate.value) {}
+  OwnRespondent(const Candidate& candidate, const ts_plugin& plugin)
+      : routine_(plugin.candidates[candidate.plugin()->index], plugin.roundings, candidate.value) {}
   ~OwnRespondent() override { routine_.release_all(); }
   OwnRespondent(const OwnRespondent&) = delete;
   OwnRespondent& operator=(const OwnRespondent&) = delete;
@@ -31,9 +31,7 @@ class OwnRespondent : public Respondent {
                               std::span<std::optional<Answer>> answers) override {
     for (std::size_t i = 0; i < asked.size(); ++i) {
       Answer& answer = answers[i].emplace();
-      double model_distance;
-      routine_.ask(question_of(asked[i]), answer, model_distance);
-      if (!std::isnan(model_distance)) answer.model_distance = model_distance;
+      routine_.ask(question_of(asked[i]), answer).copy_to(answer);
     }
     return std::nullopt;
   }
@@ -56,7 +54,7 @@ bool is_own(const Candidate& candidate) {
 Candidate asked_here(const Candidate& candidate) {
   Candidate here = candidate;
   here.origin = [candidate](const Limits&) -> std::unique_ptr<Respondent> {
-    return std::make_unique<OwnRespondent>(candidate);
+    return std::make_unique<OwnRespondent>(candidate, load(candidate));
   };
   return here;
 }

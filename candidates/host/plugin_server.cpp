@@ -42,6 +42,7 @@ struct LoadedPlugin {
   std::vector<ts_candidate> candidates;
   std::vector<Description> descriptions;
   void (*after_fork)() = nullptr;
+  Roundings roundings = nullptr;
   std::unique_ptr<SpokenCommand> spoken;
 };
 
@@ -140,6 +141,7 @@ LoadedPlugin load(const char* file) {
     result.descriptions.back().unforked = !is_without_context && plugin->unforked != 0;
   }
   if (!is_without_context) result.after_fork = plugin->after_fork;
+  if (version >= 5) result.roundings = plugin->roundings;
   return result;
 }
 
@@ -148,6 +150,7 @@ LoadedPlugin load(const char* line, const char* folder) {
   result.spoken = std::make_unique<SpokenCommand>(line, folder);
   result.candidates = {result.spoken->candidate()};
   result.descriptions = {result.spoken->description()};
+  result.roundings = result.spoken->roundings();
   return result;
 }
 
@@ -216,8 +219,8 @@ void serve_plugin(const char* file, const char* folder, int socket, const Questi
       if (!plugin.spoken) bound_memory(loaded + command.memory);
       if (plugin.after_fork) plugin.after_fork();
       if (plugin.spoken && command.warm) plugin.spoken->warm_up(command.parameter);
-      serve_session(plugin.candidates[static_cast<std::size_t>(command.index)], plugin.spoken.get(),
-                    command, socket, questions, exchange);
+      serve_session(plugin.candidates[static_cast<std::size_t>(command.index)], plugin.roundings,
+                    plugin.spoken.get(), command, socket, questions, exchange);
     };
     if (plugin.descriptions[0].unforked) serve();
     const pid_t pid = fork();

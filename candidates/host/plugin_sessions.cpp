@@ -269,8 +269,8 @@ NoAnswer PluginSessions::end_of_session(int status) const {
 std::optional<Answer> PluginSessions::answer_in(std::uint32_t i) const {
   const Slot slot = plugin_->exchange().slots[i];
   if (slot.seal != seal_of(slot, ticket_)) return std::nullopt;
-  Answer answer{slot.answer, {}, {}};
-  if (!std::isnan(slot.model_distance)) answer.model_distance = slot.model_distance;
+  Answer answer{slot.answer, {}, {}, {}};
+  slot.modelled.copy_to(answer);
   // A status or number of points that the interface does not allow is a failure of the candidate.
   // Read as an integer: an enumeration must not even be looked at with another value in it.
   std::underlying_type_t<ts_status> status;

@@ -1,11 +1,10 @@
 #include "candidates/host/routine.hpp"
 
 #include <algorithm>
-#include <limits>
 
 namespace touchstone {
-Routine::Routine(const ts_candidate& candidate, double parameter)
-    : candidate_(candidate), parameter_(parameter) {
+Routine::Routine(const ts_candidate& candidate, Roundings roundings, double parameter)
+    : candidate_(candidate), roundings_(roundings), parameter_(parameter) {
   std::fegetenv(&environment_);
 }
 
@@ -15,6 +14,7 @@ bool Routine::PreparedPair::is_for(const Question& q) const {
 
 ts_prepared* Routine::prepare(const Question& q) const {
   if (!candidate_.supports(candidate_.context, q.b.kind)) return nullptr;
+  if (!roundings_ && (q.a.rounding != 0 || q.b.rounding != 0)) return nullptr;
   return candidate_.prepare(candidate_.context, &q.a, &q.b, q.threshold, parameter_);
 }
 
@@ -33,18 +33,26 @@ ts_prepared* Routine::ready(const Question& q) {
   return ready_.back().prepared;
 }
 
-void Routine::ask(const Question& q, ts_answer& answer, double& model_distance) {
-  model_distance = std::numeric_limits<double>::quiet_NaN();
+Modelled Routine::ask(const Question& q, ts_answer& answer) {
+  Modelled modelled;
   answer = {};
   answer.status = TS_UNSUPPORTED;
   std::fesetenv(&environment_);  // a rounding mode left by a query would affect the next one
   ts_prepared* const prepared = ready(q);
-  if (!prepared) return;
+  if (!prepared) return modelled;
   const double* const hint = q.has_previous_normal ? q.previous_normal : nullptr;
   candidate_.query(prepared, &q.pose_a, &q.pose_b, hint, &answer);
   if (candidate_.model_distance) {
-    model_distance = candidate_.model_distance(prepared, &q.pose_a, &q.pose_b);
+    modelled.distance = candidate_.model_distance(prepared, &q.pose_a, &q.pose_b);
   }
+  if (!roundings_) return modelled;
+  double of_a = 0, of_b = 0;
+  roundings_(prepared, &of_a, &of_b);
+  if (of_a != q.a.rounding || of_b != q.b.rounding) {
+    modelled.roundings[0] = of_a;
+    modelled.roundings[1] = of_b;
+  }
+  return modelled;
 }
 
 void Routine::release_all_but_of(const Questions& questions, std::uint32_t first,

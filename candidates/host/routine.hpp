@@ -13,14 +13,14 @@ namespace touchstone {
 class Routine {
  public:
   /// Every question begins with the floating-point environment of now.
-  Routine(const ts_candidate& candidate, double parameter);
+  Routine(const ts_candidate& candidate, Roundings roundings, double parameter);
 
   const ts_candidate& candidate() const { return candidate_; }
   /// Null if the candidate does not support the pair. To be released by its caller.
   ts_prepared* prepare(const Question& question) const;
-  /// Fills the answer; TS_UNSUPPORTED where there is no routine for the pair. `model_distance` is
-  /// NaN if unknown.
-  void ask(const Question& question, ts_answer& answer, double& model_distance);
+  /// Fills the answer; TS_UNSUPPORTED where there is no routine for the pair. Returns what is known
+  /// of the model.
+  Modelled ask(const Question& question, ts_answer& answer);
   /// Releases the shapes that none of these slots needs.
   void release_all_but_of(const Questions& questions, std::uint32_t first, std::uint32_t end);
   void release_all();
@@ -40,6 +40,7 @@ class Routine {
   ts_prepared* ready(const Question& question);
 
   const ts_candidate& candidate_;
+  Roundings roundings_;
   double parameter_;
   std::fenv_t environment_;
   std::vector<PreparedPair> ready_;  ///< the last pairs of shapes queried, oldest first

@@ -140,8 +140,8 @@ ts_answer* make_answer() {
 /// dies.
 class Session {
  public:
-  Session(const ts_candidate& candidate, SpokenCommand* spoken, const SessionCommand& begin,
-          int socket, const Questions& questions, Exchange& exchange);
+  Session(const ts_candidate& candidate, Roundings roundings, SpokenCommand* spoken,
+          const SessionCommand& begin, int socket, const Questions& questions, Exchange& exchange);
   [[noreturn]] void serve();
 
  private:
@@ -177,9 +177,10 @@ class Session {
   double clock_ = 0;  ///< nanoseconds that reading the clock takes, likewise
 };
 
-Session::Session(const ts_candidate& candidate, SpokenCommand* spoken, const SessionCommand& begin,
-                 int socket, const Questions& questions, Exchange& exchange)
-    : routine_(candidate, begin.parameter),
+Session::Session(const ts_candidate& candidate, Roundings roundings, SpokenCommand* spoken,
+                 const SessionCommand& begin, int socket, const Questions& questions,
+                 Exchange& exchange)
+    : routine_(candidate, roundings, begin.parameter),
       spoken_(spoken),
       parameter_(begin.parameter),
       socket_(socket),
@@ -245,7 +246,7 @@ void Session::answer(const SessionCommand& command) {
 
 void Session::answer(std::uint32_t i) {
   Slot& slot = exchange_.slots[i];
-  routine_.ask(asked_.get(i), *answer_, slot.model_distance);
+  slot.modelled = routine_.ask(asked_.get(i), *answer_);
   slot.answer = *answer_;
 }
 
@@ -325,10 +326,10 @@ double Session::tail() const {
 
 }  // namespace
 
-void serve_session(const ts_candidate& candidate, SpokenCommand* spoken,
+void serve_session(const ts_candidate& candidate, Roundings roundings, SpokenCommand* spoken,
                    const SessionCommand& begin, int socket, const Questions& questions,
                    Exchange& exchange) {
-  Session(candidate, spoken, begin, socket, questions, exchange).serve();
+  Session(candidate, roundings, spoken, begin, socket, questions, exchange).serve();
 }
 
 }  // namespace touchstone

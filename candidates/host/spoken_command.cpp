@@ -25,6 +25,7 @@ struct ts_prepared {
   touchstone::SpokenCommand& command;
   std::uint32_t handle;
   double model_distance;  ///< of the last query; NaN if unknown
+  touchstone::messages::Prepared as;
 };
 
 namespace touchstone {
@@ -182,12 +183,21 @@ ts_candidate SpokenCommand::candidate() {
   return candidate;
 }
 
+Roundings SpokenCommand::roundings() const {
+  if (!description_.says_roundings) return nullptr;
+  return [](const ts_prepared* prepared, double* of_a, double* of_b) {
+    *of_a = prepared->as.roundings[0];
+    *of_b = prepared->as.roundings[1];
+  };
+}
+
 ts_prepared* SpokenCommand::prepare(const ts_shape& a, const ts_shape& b, double threshold,
                                     double parameter) {
   const messages::PairOfShapes pair{next_handle_++, threshold, parameter, a, b};
-  const auto request = messages::prepare_request(format_, ++ticket_, pair);
-  if (messages::read_prepared(request, ask(request))) {
-    return new ts_prepared{*this, pair.handle, std::numeric_limits<double>::quiet_NaN()};
+  const auto request =
+      messages::prepare_request(format_, ++ticket_, pair, description_.says_roundings);
+  if (const auto prepared = messages::read_prepared(request, ask(request))) {
+    return new ts_prepared{*this, pair.handle, std::numeric_limits<double>::quiet_NaN(), *prepared};
   }
   release(pair.handle);
   return nullptr;
@@ -209,7 +219,7 @@ void SpokenCommand::warm_up(double parameter) {
   const ts_candidate spoken = candidate();
   static constexpr double corners[] = {-1, -1, 0, 1, -1, 0, 0, 1, 0};
   static constexpr int faces[] = {3, 0, 1, 2, 3, 0, 2, 1};
-  constexpr ts_shape triangle{TS_CONVEX, {}, corners, faces, 3, 2};
+  constexpr ts_shape triangle{TS_CONVEX, {}, corners, faces, 3, 2, 0};
   for (const ts_shape_kind kind :
        {TS_SPHERE, TS_BOX, TS_CYLINDER, TS_CAPSULE, TS_PLANE, TS_CONVEX}) {
     if (!description_.supports[kind]) continue;

@@ -29,6 +29,8 @@ class SpokenCommand {
   const Description& description() const { return description_; }
   /// Valid as long as this is.
   ts_candidate candidate();
+  /// Null if the command says none.
+  Roundings roundings() const;
   /// Asks an easy question, so that what begins late begins now.
   void warm_up(double parameter);
 

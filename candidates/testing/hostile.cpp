@@ -435,7 +435,7 @@ void release(ts_prepared* prepared) {
 
 ts_candidate candidate = {"hostile", "1",   "does one deed", nullptr, &which, supports,
                           prepare,   query, release,         nullptr, nullptr};
-ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 1, &candidate, nullptr, 0};
+ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 1, &candidate, nullptr, 0, nullptr};
 
 /// Fills the available memory with letters, to the last byte.
 const char* endless_text() {

@@ -271,7 +271,7 @@ const ts_candidate candidates[] = {
      release, nullptr, nullptr},
     {"weighing", "1", "answers with a convex body's numbers", nullptr, nullptr, supports,
      prepare_weighing, query_weighing, release_weighing, nullptr, nullptr}};
-const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 10, candidates, nullptr, 0};
+const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 10, candidates, nullptr, 0, nullptr};
 
 }  // namespace
 

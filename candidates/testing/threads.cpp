@@ -80,9 +80,9 @@ const ts_candidate candidate = {TOUCHSTONE_THREADS_NAME,
                                 nullptr,
                                 &scale};
 #ifdef AFTER_FORK
-const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 1, &candidate, start_worker, 0};
+const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 1, &candidate, start_worker, 0, nullptr};
 #else
-const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 1, &candidate, nullptr, 1};
+const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 1, &candidate, nullptr, 1, nullptr};
 #endif
 
 }  // namespace

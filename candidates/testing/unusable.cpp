@@ -6,7 +6,7 @@
 
 #ifdef OLD
 const ts_plugin* touchstone_plugin() {
-  static const ts_plugin plugin = {2, 0, nullptr, nullptr, 0};
+  static const ts_plugin plugin = {2, 0, nullptr, nullptr, 0, nullptr};
   return &plugin;
 }
 #endif
@@ -29,7 +29,8 @@ const ts_plugin* touchstone_plugin() {
   static const ts_candidate candidates[] = {
       {FIRST, "1", "none", nullptr, nullptr, supports, prepare, query, release, nullptr, nullptr},
       {"twin", "1", "none", nullptr, nullptr, supports, prepare, query, release, nullptr, nullptr}};
-  static const ts_plugin plugin = {TOUCHSTONE_INTERFACE_VERSION, 2, candidates, nullptr, 0};
+  static const ts_plugin plugin = {
+      TOUCHSTONE_INTERFACE_VERSION, 2, candidates, nullptr, 0, nullptr};
   return &plugin;
 }
 #endif

@@ -11,6 +11,7 @@
 
 #include "oracle/judge/normals.hpp"
 #include "oracle/patch/support_feature.hpp"
+#include "reference/invalid_input.hpp"
 
 namespace touchstone {
 namespace {
@@ -326,6 +327,9 @@ NormalPatch patch_along(const Configuration& c, const Vec3& n) {
   return result;
 }
 
+/// Of the distance of bodies that a candidate has rounded: below what doubles resolve.
+constexpr double model_width = 1e-17;
+
 }  // namespace
 
 struct Judge::State {
@@ -337,6 +341,31 @@ struct Judge::State {
   const double distance;     ///< the same, relative to `size`
   std::optional<oracle::Regrets> regrets;
   std::vector<NormalPatch> patches;
+  /// Of the bodies rounded by candidates, metres.
+  struct Rounded {
+    std::array<double, 2> roundings;
+    std::optional<double> distance;
+  };
+  std::vector<Rounded> rounded;
+
+  /// None if no such bodies exist.
+  std::optional<double> rounded_distance(const std::array<double, 2>& roundings) {
+    for (const Rounded& known : rounded) {
+      if (known.roundings == roundings) return known.distance;
+    }
+    std::optional<double> distance;
+    try {
+      const Shape a = with_rounding(c.a, roundings[0]), b = with_rounding(c.b, roundings[1]);
+      const Configuration model{std::get<Cylinder>(a), c.pose_a, b, c.pose_b};
+      distance = oracle::truth(model, model_width).signed_distance.midpoint();
+    } catch (const InvalidInput&) {
+    }
+    return rounded.emplace_back(Rounded{roundings, distance}).distance;
+  }
+
+  std::optional<double> model_distance(const Answer& answer) {
+    return answer.roundings ? rounded_distance(*answer.roundings) : answer.model_distance;
+  }
 
   /// Against the whole bodies, metres.
   double whole_regret(const Vec3& n) {
@@ -368,8 +397,8 @@ struct Judge::State {
 Judge::Judge(const Configuration& c, const oracle::Truth& truth, const Bar& bar) {
   const double size = error_size(c, bar);
   const double metres = truth.signed_distance.midpoint();
-  state_ =
-      std::make_unique<State>(State{c, truth, bar, size, metres, relative(metres, size), {}, {}});
+  state_ = std::make_unique<State>(
+      State{c, truth, bar, size, metres, relative(metres, size), {}, {}, {}});
 }
 Judge::Judge(Judge&&) noexcept = default;
 Judge::~Judge() = default;
@@ -437,9 +466,12 @@ Score Judge::score(const ts_answer& answer) {
 Score Judge::score(const Answer& answer) {
   if (!answer.was_asked) return only(Outcome::not_asked);
   Score s = score(static_cast<const ts_answer&>(answer));
-  if (s.depth_error && answer.model_distance) {
-    s.model_error = relative(*answer.model_distance - state_->true_metres, state_->size);
-    s.solver_error = relative(answer.signed_distance - *answer.model_distance, state_->size);
+  if (!s.depth_error && s.outcome != Outcome::missed) return s;
+  if (const auto distance = state_->model_distance(answer)) {
+    // A miss says that the model is apart, or that it touches.
+    const double answered = s.depth_error ? answer.signed_distance : std::max(*distance, 0.0);
+    s.model_error = relative(*distance - state_->true_metres, state_->size);
+    s.solver_error = relative(answered - *distance, state_->size);
   }
   return s;
 }

@@ -103,8 +103,10 @@ struct Score {
   /// Coverage of the contact patch, if the bodies are in contact and the normal is
   /// within the bar.
   std::optional<double> coverage;
-  /// For a simplified model that knows its own signed distance: that distance − true, and the
-  /// answer's − that distance. They add up to the depth error.
+  /// For a simplified model that knows its own signed distance, or an engine that says how it
+  /// rounds the bodies: the model's distance − true, and the answer's − that distance. They add up
+  /// to the depth error. Of a missed contact, too: where the model is apart, the solver has no part
+  /// in it.
   std::optional<double> model_error, solver_error;
   int points = 0;
   /// Size of the failure: the largest of the errors of depth (of the answer or its points) and the
@@ -135,7 +137,8 @@ class Judge {
   ~Judge();
 
   Score score(const ts_answer& answer);
-  /// Adds the errors of model and solver.
+  /// Adds the errors of model and solver. The signed distance of bodies that the candidate has
+  /// rounded in its way is the oracle's, too.
   Score score(const Answer& answer);
 
  private:

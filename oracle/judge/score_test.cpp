@@ -1,5 +1,6 @@
 #include "oracle/judge/score.hpp"
 
+#include <array>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
@@ -14,6 +15,45 @@
 
 namespace touchstone {
 namespace {
+
+// Of the rim of `standing`, leaning by 45°, a rounding of 0.04 takes 0.04 (√2 − 1).
+TEST(Score, OfAnEngineThatRoundsEdgesIsSplitInWhatItModelsAndHowItSolves) {
+  const double reach = (standing.a.radius() + standing.a.half_length()) / std::numbers::sqrt2;
+  const double lost = 0.04 * (std::numbers::sqrt2 - 1), off = 1e-3;
+  const double size = smaller_size(standing);
+  const Eigen::Quaterniond leaning(std::cos(std::numbers::pi / 8), std::sin(std::numbers::pi / 8),
+                                   0, 0);
+  for (const double depth : {0.1, 0.01}) {
+    const Configuration c{standing.a, Pose({0, 0, reach - depth}, leaning), Plane({0, 0, 1}, 0),
+                          Pose()};
+    Answer answer{contact(-(depth - lost) + off, up), {}, {}, std::array{0.04, 0.0}};
+    if (depth < lost) static_cast<ts_answer&>(answer) = none();
+    const Score s = score(c, oracle::truth(c), answer, {});
+    EXPECT_EQ(s.outcome, depth < lost ? Outcome::missed : Outcome::shallow);
+    ASSERT_TRUE(s.model_error && s.solver_error);
+    EXPECT_NEAR(*s.model_error, lost / size, 1e-12);
+    EXPECT_NEAR(*s.solver_error, depth < lost ? 0 : off / size, 1e-12);
+    answer.roundings = std::array{0.04, 7.0};  // a plane has none
+    EXPECT_NEAR(*score(c, oracle::truth(c), answer, {}).model_error, lost / size, 1e-12);
+    answer.roundings = std::array{40.0, 0.0};  // no such cylinder exists
+    EXPECT_FALSE(score(c, oracle::truth(c), answer, {}).model_error);
+  }
+}
+
+TEST(PointDistance, OfRoundedBodiesIsThatOfWhatTheyAre) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> place(-4, 4);
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3 p(place(random), place(random), place(random));
+    const auto distance = [&](const Shape& s) { return point_distance(s, Pose(), p); };
+    EXPECT_NEAR(distance(Cylinder(1, 3, 1)), distance(Capsule(1, 2)), 1e-14);
+    EXPECT_NEAR(distance(Box({1, 1, 1}, 1)), distance(Sphere(1)), 1e-14);
+    const Convex core = as_hull(Box({0.5, 1.5, 2.5}));
+    EXPECT_NEAR(distance(Box({1, 2, 3}, 0.5)), distance(core.rounded(0.5)), 1e-14);
+    // Against faces the rounded body is the sharp one, and behind its edges less.
+    EXPECT_GE(distance(Cylinder(2, 1, 0.25)), distance(Cylinder(2, 1)) - 1e-14);
+  }
+}
 
 TEST(Score, TheRightAnswerAgreesWithNoError) {
   const Score s = scored(standing, contact(-1e-3, up));
@@ -150,7 +190,7 @@ TEST(Score, SaysHowFarPointsAreOffTheBodies) {
 
 TEST(Score, ErrorsBeyondTheLargestDoubleAreTheLargestDouble) {
   const Configuration small{Cylinder(1e-3, 1e-3), Pose(), Sphere(1e-3), Pose()};
-  Answer answer{contact(-1e308, up), {}, 1e308};
+  Answer answer{contact(-1e308, up), {}, 1e308, {}};
   answer.points[0].position[0] = 1e308;
   const Score s = score(small, oracle::truth(small), answer, Bar{});
   constexpr double largest = std::numeric_limits<double>::max();

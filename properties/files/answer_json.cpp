@@ -152,6 +152,14 @@ json to_json(const ts_answer& answer, const Score& score, Order order) {
 json to_json(const Answer& answer, const Score& score, Order order) {
   json result = to_json(static_cast<const ts_answer&>(answer), score, order);
   if (!answer.reason.empty()) result["reason"] = answer.reason;
+  if (answer.roundings) {
+    const auto [of_a, of_b] = *answer.roundings;
+    result["roundings"] = order == Order::swapped ? std::array{of_b, of_a} : std::array{of_a, of_b};
+  }
+  if (score.model_error && score.solver_error) {
+    result["score"]["model_error"] = *score.model_error;
+    result["score"]["solver_error"] = *score.solver_error;
+  }
   return result;
 }
 

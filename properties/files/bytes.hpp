@@ -259,9 +259,10 @@ void members(Archive& a, Plane& x) {
 template <class Archive>
 void members(Archive& a, Box& x) {
   if constexpr (Archive::reads) {
-    x = Box(a.template next<Vec3>());
+    const auto half_extents = a.template next<Vec3>();
+    x = Box(half_extents, a.template next<double>());
   } else {
-    a(x.half_extents());
+    a(x.half_extents(), x.rounding());
   }
 }
 template <class Archive>
@@ -270,10 +271,10 @@ void members(Archive& a, Convex& x) {
   if constexpr (Archive::reads) {
     auto vertices = a.template next<std::vector<Vec3>>();
     a(faces);
-    x = Convex(std::move(vertices), std::move(faces));
+    x = Convex(std::move(vertices), std::move(faces), a.template next<double>());
   } else {
     for (const Convex::Face& face : x.faces()) faces.push_back(face.vertices);
-    a(x.vertices(), faces);
+    a(x.vertices(), faces, x.rounding());
   }
 }
 template <class Archive>
@@ -282,7 +283,7 @@ void members(Archive& a, Configuration& x) {
 }
 template <class Archive>
 void members(Archive& a, Answer& x) {
-  a(static_cast<ts_answer&>(x), x.reason, x.model_distance, x.was_asked);
+  a(static_cast<ts_answer&>(x), x.reason, x.model_distance, x.roundings, x.was_asked);
 }
 
 namespace oracle {

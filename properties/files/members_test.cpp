@@ -48,8 +48,8 @@ const Parcel& parcel() {
       std::nullopt,
       {{"one", 1}, {"two", 2}},
       {{"none", {}}, {"some", {0.1, -0.0}}},
-      {Sphere(1), Box(Vec3(1, 2, 3)), Plane(Vec3(0, 3, 0), -1), Capsule(1, 2), Cylinder(3, 4),
-       Convex({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {2, 1, 0}})},
+      {Sphere(1), Box(Vec3(1, 2, 3), 0.5), Plane(Vec3(0, 3, 0), -1), Capsule(1, 2),
+       Cylinder(3, 4, 1), Convex({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}, {2, 1, 0}}, 0.25)},
       Pose(Vec3(1, 2, 3), {0.5, 0, 0.5, 0})};
   return p;
 }
@@ -66,6 +66,9 @@ TEST(Bytes, AreReadBackAsTheyWere) {
   ASSERT_EQ(read.shapes.size(), 6u);
   EXPECT_EQ(std::get<Plane>(read.shapes[2]).displacement(), -1);
   EXPECT_EQ(std::get<Convex>(read.shapes[5]).edges().size(), 3u);
+  for (std::size_t i = 0; i < read.shapes.size(); ++i) {
+    EXPECT_EQ(rounding_of(read.shapes[i]), rounding_of(parcel().shapes[i]));
+  }
   EXPECT_EQ(read.pose.rotation(), parcel().pose.rotation());
 }
 
