@@ -344,7 +344,7 @@ std::vector<double> sweep(const Candidate& family, std::string_view text) {
 bool Candidate::has_routine_for(Pair pair) const {
   constexpr ts_shape_kind kinds[] = {TS_PLANE,    TS_SPHERE, TS_CAPSULE,
                                      TS_CYLINDER, TS_BOX,    TS_CONVEX};
-  static_assert(std::size(kinds) == std::size(known_pairs));
+  static_assert(std::size(kinds) == std::size(all_pairs));
   return supports[kinds[static_cast<std::size_t>(pair)]];
 }
 

@@ -18,7 +18,7 @@ namespace {
 std::string other_shapes(const Candidate& candidate) {
   constexpr std::string_view before = "cylinder-";  // of a pair's name
   std::string text;
-  for (const Pair pair : known_pairs) {
+  for (const Pair pair : all_pairs) {
     if (!candidate.has_routine_for(pair)) continue;
     text += (text.empty() ? "" : ", ") + std::string(pair_name(pair)).substr(before.size());
   }

@@ -44,11 +44,14 @@ class Covering {
   }
 
   std::vector<PoseClass> classes() {
+    if (factors_[0].empty()) return {};  // of a pair that came after the suite
     for (const PoseClass& c : old_classes(pair_)) add(c);
     for (const Element& e : factors_[0]) add({pair_, e.arrangement, {}});
-    for (const Element& e : factors_[0]) {
-      for (const Element& frame : factors_[1 + static_cast<std::size_t>(ModifierKind::frame)]) {
-        if (makes_sense({&e, &frame})) add(class_of({&e, &frame}));
+    for (const ModifierKind kind : {ModifierKind::frame, ModifierKind::hull}) {
+      for (const Element& e : factors_[0]) {
+        for (const Element& m : factors_[1 + static_cast<std::size_t>(kind)]) {
+          if (makes_sense({&e, &m})) add(class_of({&e, &m}));
+        }
       }
     }
     while (!uncovered_.empty()) add(class_of(best_row()));
@@ -212,7 +215,7 @@ class Covering {
 template <std::size_t strength, int suite = std::numeric_limits<int>::max()>
 const std::vector<PoseClass>& covering(Pair pair) {
   static const auto all = [] {
-    std::array<std::vector<PoseClass>, std::size(known_pairs)> result;
+    std::array<std::vector<PoseClass>, std::size(all_pairs)> result;
     for (const Pair p : all_pairs) {
       result[static_cast<std::size_t>(p)] = Covering(p, strength, suite).classes();
     }

@@ -18,14 +18,14 @@ Arrangement meeting(Pair pair, const char* name, const char* description, Featur
                     Feature on_b) {
   return {name, description, Orientations::random, not_deep,
           [pair, on_a, on_b](Draw& draw, const Modifiers& m) {
-            const Bodies bodies = draw_bodies(draw, pair, m.proportions());
+            const Bodies bodies = draw_bodies(draw, pair, m);
             const double distance = draw_clearance(draw, m.clearance(), smaller_size(bodies));
             return meet(draw, bodies, on_a, on_b, distance);
           }};
 }
 
 Configuration general(Draw& draw, Pair pair, const Modifiers& m) {
-  const Bodies bodies = draw_bodies(draw, pair, m.proportions());
+  const Bodies bodies = draw_bodies(draw, pair, m);
   if (m.clearance() == Clearance::deep) return overlap_deeply(draw, bodies, m.proportions());
   const FeaturePair features = draw_feature_pair(draw, pair);
   const double distance = draw_clearance(draw, m.clearance(), smaller_size(bodies));
@@ -33,7 +33,7 @@ Configuration general(Draw& draw, Pair pair, const Modifiers& m) {
 }
 
 Configuration concentric(Draw& draw, Pair pair, const Modifiers& m) {
-  const Bodies bodies = draw_bodies(draw, pair, m.proportions());
+  const Bodies bodies = draw_bodies(draw, pair, m);
   const Vec3 centre{draw.uniform(-1, 1), draw.uniform(-1, 1), draw.uniform(-1, 1)};
   return {bodies.a, Pose(centre, bodies.orientation_a), bodies.b,
           Pose(centre, bodies.orientation_b)};
@@ -41,20 +41,33 @@ Configuration concentric(Draw& draw, Pair pair, const Modifiers& m) {
 
 const Quaternion z_to_x(0.5, 0.5, 0.5, 0.5);  // x to y, y to z
 
-/// The box's z edge lies across the cap, in its plane up to rounding.
-Configuration edge_in_cap(Draw& draw, const Modifiers& m) {
-  Bodies bodies = draw_bodies(draw, Pair::box, m.proportions());
+/// The rotation that takes a unit vector to z or −z, whichever is nearer.
+Quaternion onto_z(const Vec3& n) {
+  const double side = n.z() < 0 ? -1 : 1;
+  return normalized(Quaternion(1 + side * n.z(), side * n.y(), -side * n.x(), 0));
+}
+
+/// The box's z edge, or an edge of the hull, lies across the cap, in its plane up to rounding.
+Configuration edge_in_cap(Draw& draw, Pair pair, const Modifiers& m) {
+  Bodies bodies = draw_bodies(draw, pair, m);
   const Quaternion heading = draw.turn_about_z();
-  bodies.orientation_b =
-      product(product(product(bodies.orientation_a, heading), z_to_x), draw.turn_about_z());
+  int which = 2;
+  if (const auto* hull = std::get_if<Convex>(&bodies.b)) {
+    const EdgeOfHull lying = draw_edge(draw, *hull);
+    which = lying.number;
+    bodies.orientation_b = product(product(bodies.orientation_a, heading), onto_z(lying.normal));
+  } else {
+    bodies.orientation_b =
+        product(product(product(bodies.orientation_a, heading), z_to_x), draw.turn_about_z());
+  }
   const double distance = draw_clearance(draw, m.clearance(), smaller_size(bodies));
-  return meet_at(draw, bodies, cap, edge, distance, 2);
+  return meet_at(draw, bodies, cap, edge, distance, which);
 }
 
 /// Cap or side of A against B, whose orientation relative to A is `base` and any turn about its own
-/// z axis.
+/// z axis, in whose place a hull has one of its edges.
 Configuration nearly_aligned(Draw& draw, Pair pair, const Quaternion& base, const Modifiers& m) {
-  Bodies bodies = draw_bodies(draw, pair, m.proportions());
+  Bodies bodies = draw_bodies(draw, pair, m);
   if (pair == Pair::plane) bodies.b = Plane(Vec3(0, 0, 1), draw.uniform(-1, 1));
   bodies.orientation_b = product(product(bodies.orientation_a, base), draw.turn_about_z());
   const double distance = draw_clearance(draw, m.clearance(), smaller_size(bodies));
@@ -64,6 +77,11 @@ Configuration nearly_aligned(Draw& draw, Pair pair, const Quaternion& base, cons
                        : pair == Pair::capsule  ? (draw.coin() ? side : end)
                        : pair == Pair::cylinder ? (draw.coin() ? side : rim)
                                                 : (draw.coin() ? edge : vertex);
+  if (const auto* hull = std::get_if<Convex>(&bodies.b)) {
+    const EdgeOfHull aligned = draw_edge(draw, *hull);
+    bodies.orientation_b = product(bodies.orientation_b, onto_z(aligned.along));
+    return meet_at(draw, bodies, on_a, on_b, distance, aligned.number);
+  }
   return meet(draw, bodies, on_a, on_b, distance);
 }
 
@@ -84,11 +102,11 @@ void add_nearly_aligned(Pair pair, std::vector<Arrangement>& out) {
     return;
   }
   add("parallel",
-      "Features meet while the axes (or the axis and a box edge) are parallel but for rounding or "
+      "Features meet while the axes (or the axis and an edge) are parallel but for rounding or "
       "a tilt: cross products lose their digits.",
       upright);
   add("perpendicular",
-      "Features meet while the axes (or the axis and a box edge) are perpendicular but for "
+      "Features meet while the axes (or the axis and an edge) are perpendicular but for "
       "rounding or a tilt: discs are seen edge on.",
       z_to_x);
 }
@@ -147,21 +165,23 @@ void add_sphere_features(std::vector<Arrangement>& out) {
               rim, end));
 }
 
-void add_box_features(std::vector<Arrangement>& out) {
+/// Of boxes and hulls.
+void add_face_features(Pair pair, std::vector<Arrangement>& out) {
   const auto add = [&](const char* name, const char* description, Feature on_a, Feature on_b) {
-    out.push_back(meeting(Pair::box, name, description, on_a, on_b));
+    out.push_back(meeting(pair, name, description, on_a, on_b));
   };
-  add("rim-face", "The rim meets a face of the box in one point.", rim, cap);
-  add("edge-side", "An edge of the box crosses the side.", side, edge);
+  add("rim-face", "The rim meets a face of B in one point.", rim, cap);
+  add("edge-side", "An edge of B crosses the side.", side, edge);
   out.push_back({"edge-cap",
-                 "An edge of the box lies across the cap, parallel to it but for rounding: a line "
-                 "of contact that ends at the edge's ends or at the rim.",
-                 Orientations::nearly, not_deep, edge_in_cap});
-  add("edge-rim", "An edge of the box meets the rim; the nearest point is the root of a quartic.",
-      rim, edge);
-  add("vertex-side", "A vertex of the box meets the side.", side, vertex);
-  add("vertex-cap", "A vertex of the box meets the cap.", cap, vertex);
-  add("vertex-rim", "A vertex of the box meets the rim: two fans of normals, none of its own.", rim,
+                 "An edge of B lies across the cap, parallel to it but for rounding: a line of "
+                 "contact that ends at the edge's ends or at the rim.",
+                 Orientations::nearly, not_deep,
+                 [pair](Draw& draw, const Modifiers& m) { return edge_in_cap(draw, pair, m); }});
+  add("edge-rim", "An edge of B meets the rim; the nearest point is the root of a quartic.", rim,
+      edge);
+  add("vertex-side", "A vertex of B meets the side.", side, vertex);
+  add("vertex-cap", "A vertex of B meets the cap.", cap, vertex);
+  add("vertex-rim", "A vertex of B meets the rim: two fans of normals, none of its own.", rim,
       vertex);
 }
 
@@ -187,9 +207,8 @@ std::vector<Arrangement> feature_arrangements(Pair pair) {
       add_cylinder_features(out);
       break;
     case Pair::box:
-      add_box_features(out);
-      break;
     case Pair::convex:
+      add_face_features(pair, out);
       break;
   }
   if (pair != Pair::plane) {

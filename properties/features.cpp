@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <stdexcept>
+#include <limits>
 #include <vector>
 
+#include "oracle/hull.hpp"
+#include "properties/hulls.hpp"
 #include "properties/moves.hpp"
 
 namespace touchstone {
@@ -59,12 +61,143 @@ Vec3 point_on_box(Draw& draw, const Vec3& half, Feature feature, const Vec3& n, 
   return p;
 }
 
+/// The direction of v, or the other one where v's square is no ordinary double.
+Vec3 direction_of(const Vec3& v, const Vec3& otherwise) {
+  constexpr double smallest = 1e-250, largest = 1e250;
+  const double squared = dot(v, v);
+  return squared > smallest && squared < largest ? normalized(v) : otherwise;
+}
+
+/// Like the face's own normal, but of the same bits on every machine.
+Vec3 outward_normal(const Convex& hull, int face) {
+  const auto vertex = [&](int i) { return hull.vertices()[static_cast<std::size_t>(i)]; };
+  const Convex::Face& f = hull.faces()[static_cast<std::size_t>(face)];
+  const Vec3 first = vertex(f.vertices[0]);
+  Vec3 area = Vec3::Zero();
+  for (std::size_t i = 2; i < f.vertices.size(); ++i) {
+    area += cross(vertex(f.vertices[i - 1]) - first, vertex(f.vertices[i]) - first);
+  }
+  return direction_of(area, f.normal);
+}
+
+/// An edge of a hull with one of its outward normals: between those of its faces or, in the plane
+/// of a flat one, on one side of it.
+EdgeOfHull normal_of_edge(Draw& draw, const Convex& hull, int number) {
+  const Convex::Edge& edge = hull.edges()[static_cast<std::size_t>(number)];
+  const Vec3 from = hull.vertices()[static_cast<std::size_t>(edge.vertices[0])];
+  const Vec3 to = hull.vertices()[static_cast<std::size_t>(edge.vertices[1])];
+  const Vec3 along = direction_of(to - from, Vec3(0, 0, 1));
+  const Vec3 first = outward_normal(hull, edge.faces[0]);
+  const double part = draw.uniform(-inner, inner);
+  const Vec3 normal =
+      hull.is_flat() ? Vec3(part * first + (1 - std::abs(part)) * cross(along, first))
+                     : Vec3((1 + part) * first + (1 - part) * outward_normal(hull, edge.faces[1]));
+  return {number, along, direction_of(normal, first)};
+}
+
+/// A hull as it lies in the world.
+struct PlacedHull {
+  const Convex& hull;
+  const Axes& axes;
+
+  /// A direction of the world in the hull's frame.
+  Vec3 local(const Vec3& n) const { return in_body(axes, n); }
+
+  /// Whether none of the hull's vertices lies farther along a direction of its frame than these,
+  /// but for rounding.
+  bool is_supported_by(const std::vector<int>& vertices, const Vec3& n) const {
+    constexpr double rounding = 1e-9;
+    double least = std::numeric_limits<double>::infinity();
+    for (const int i : vertices) {
+      least = std::min(least, dot(n, hull.vertices()[static_cast<std::size_t>(i)]));
+    }
+    const double size = hull.half_extents().maxCoeff();
+    return dot(n, farthest(n)) <= least + rounding * size;
+  }
+  /// The vertex that lies farthest along a direction of its frame.
+  const Vec3& farthest(const Vec3& n) const {
+    return *std::max_element(hull.vertices().begin(), hull.vertices().end(),
+                             [&](const Vec3& p, const Vec3& q) { return dot(n, p) < dot(n, q); });
+  }
+  std::vector<int> vertices_of(Feature feature, int which) const {
+    const auto i = static_cast<std::size_t>(which);
+    if (feature == Feature::cap) return hull.faces()[i].vertices;
+    if (feature == Feature::edge) {
+      return {hull.edges()[i].vertices.begin(), hull.edges()[i].vertices.end()};
+    }
+    return {};
+  }
+};
+
+/// A random point of the feature where it lies farthest along n; else the vertex that does. World.
+Vec3 point_on_hull(Draw& draw, const PlacedHull& b, Feature feature, const Vec3& n, int which) {
+  const Vec3 local = b.local(n);
+  const std::vector<int> vertices = b.vertices_of(feature, which);
+  if (vertices.empty() || !b.is_supported_by(vertices, local)) {
+    return in_world(b.axes, b.farthest(local));
+  }
+  Vec3 middle = Vec3::Zero(), point = Vec3::Zero();
+  double sum = 0;
+  for (const int i : vertices) {
+    const Vec3& vertex = b.hull.vertices()[static_cast<std::size_t>(i)];
+    const double weight = draw.uniform(0, 1);
+    point += weight * vertex;
+    sum += weight;
+    middle += vertex;
+  }
+  middle /= static_cast<double>(vertices.size());
+  if (sum > 0) middle += inner * (point / sum - middle);
+  return in_world(b.axes, middle);
+}
+
+/// The normal, world, between a side along the unit vector u and the first edge that it can cross,
+/// from number `which` on: one of whose outward normals is across u.
+Vec3 normal_between_side_and_edge(Draw& draw, const PlacedHull& b, const Vec3& u, int which) {
+  constexpr double parallel = 1e-8;  // sine
+  const auto& edges = b.hull.edges();
+  for (std::size_t k = 0; k < edges.size(); ++k) {
+    const std::size_t i = (static_cast<std::size_t>(which) + k) % edges.size();
+    const EdgeOfHull edge = normal_of_edge(draw, b.hull, static_cast<int>(i));
+    const Vec3 across = cross(u, in_world(b.axes, edge.along));
+    if (dot(across, across) < parallel * parallel) return in_world(b.axes, edge.normal);
+    const Vec3 n = normalized(across);
+    for (const double sign : {1.0, -1.0}) {
+      if (b.is_supported_by(b.vertices_of(Feature::edge, edge.number), b.local(sign * n))) {
+        return sign * n;
+      }
+    }
+  }
+  return draw.direction_across(u);
+}
+
+/// The common normal, towards A, where it meets a hull: as for a box A's cap has priority, then B's
+/// face.
+Vec3 normal_at_hull(Draw& draw, const Vec3& u, Feature on_a, const PlacedHull& b, Feature on_b,
+                    int which) {
+  if (on_a == Feature::cap) {
+    const std::vector<int> vertices = b.vertices_of(on_b, which);
+    const Vec3 n = draw.sign() * u;
+    const auto meets = [&](const Vec3& way) {
+      return !vertices.empty() && b.is_supported_by(vertices, b.local(way));
+    };
+    return meets(-n) && !meets(n) ? Vec3(-n) : n;
+  }
+  if (on_b == Feature::cap) {
+    return in_world(b.axes, outward_normal(b.hull, which));
+  }
+  if (on_b == Feature::edge) {
+    if (on_a == Feature::side) return normal_between_side_and_edge(draw, b, u, which);
+    return in_world(b.axes, normal_of_edge(draw, b.hull, which).normal);
+  }
+  return on_a == Feature::side ? draw.direction_across(u) : draw.direction();
+}
+
 struct PointOnB {
   Draw& draw;
   Feature feature;
   const Axes& axes;
   const Vec3& n;  // world, towards A
-  int edge;
+  int which;
 
   Vec3 operator()(const Cylinder& s) const {
     return in_world(axes,
@@ -77,9 +210,11 @@ struct PointOnB {
   }
   Vec3 operator()(const Sphere& s) const { return s.radius() * n; }
   Vec3 operator()(const Box& s) const {
-    return in_world(axes, point_on_box(draw, s.half_extents(), feature, in_body(axes, n), edge));
+    return in_world(axes, point_on_box(draw, s.half_extents(), feature, in_body(axes, n), which));
   }
-  Vec3 operator()(const Convex&) const { throw std::logic_error("no features of a hull"); }
+  Vec3 operator()(const Convex& s) const {
+    return point_on_hull(draw, {s, axes}, feature, n, which);
+  }
   Vec3 operator()(const Plane& s) const {
     // n is the plane's unit normal here.
     const double length = std::sqrt(dot(s.normal(), s.normal()));
@@ -117,8 +252,11 @@ Directions directions_of_b(Draw& draw, const Bodies& bodies, const Axes& axes, F
 
 /// The common normal, towards A. A plane's normal has priority, then that of A's cap, then that of
 /// B's face.
-Vec3 common_normal(Draw& draw, const Directions& a, const Directions& b, bool b_is_plane) {
-  if (b_is_plane) return b.axis;
+Vec3 common_normal(Draw& draw, const Bodies& bodies, const Axes& axes_a, Feature on_a,
+                   const Axes& axes_b, Feature on_b, int edge) {
+  const Directions a = directions_of_a(draw, axes_a, on_a);
+  const Directions b = directions_of_b(draw, bodies, axes_b, on_b, edge);
+  if (std::holds_alternative<Plane>(bodies.b)) return b.axis;
   if (a.kind == Directions::one) return a.axis;
   if (b.kind == Directions::one) return b.axis;
   if (a.kind == Directions::across && b.kind == Directions::across) {
@@ -132,12 +270,19 @@ Vec3 common_normal(Draw& draw, const Directions& a, const Directions& b, bool b_
 
 }  // namespace
 
+EdgeOfHull draw_edge(Draw& draw, const Convex& hull) {
+  const auto number = static_cast<int>(draw.integer(0, std::ssize(hull.edges()) - 1));
+  return normal_of_edge(draw, hull, number);
+}
+
 Cylinder draw_cylinder(Draw& draw) {
   const double radius = draw.log_uniform(0.2, 1);
   return Cylinder(radius, draw.log_uniform(0.2, 1));
 }
 
-Shape draw_other(Draw& draw, Pair pair) {
+namespace {
+
+Shape draw_other(Draw& draw, Pair pair, const Modifiers& modifiers) {
   const auto size = [&] { return draw.log_uniform(0.2, 1); };
   switch (pair) {
     case Pair::plane: {
@@ -152,17 +297,14 @@ Shape draw_other(Draw& draw, Pair pair) {
     }
     case Pair::cylinder:
       return draw_cylinder(draw);
-    case Pair::box: {
-      const double x = size(), y = size(), z = size();
-      return Box(Vec3(x, y, z));
-    }
     case Pair::convex:
+      return oracle::convex_hull(draw_hull_points(draw, modifiers.hull(), modifiers.proportions()));
+    case Pair::box:
       break;
   }
-  throw std::logic_error("no such pair");
+  const double x = size(), y = size(), z = size();
+  return Box(Vec3(x, y, z));
 }
-
-namespace {
 
 template <class Round>
 Round formed(Form form, double size) {
@@ -180,7 +322,7 @@ void reshape(Draw& draw, Proportions proportions, Bodies& bodies) {
       bodies.b = formed<Cylinder>(form.b, std::get<Cylinder>(bodies.b).radius());
     }
   }
-  if (proportions == Proportions::plate) {
+  if (proportions == Proportions::plate && std::holds_alternative<Box>(bodies.b)) {
     const std::array<bool, 3> is_thin = draw_thin_extents(draw);
     const double length = std::get<Box>(bodies.b).half_extents().x();
     const auto extent = [&](std::size_t i) {
@@ -199,12 +341,12 @@ void reshape(Draw& draw, Proportions proportions, Bodies& bodies) {
 
 }  // namespace
 
-Bodies draw_bodies(Draw& draw, Pair pair, Proportions proportions) {
+Bodies draw_bodies(Draw& draw, Pair pair, const Modifiers& modifiers) {
   const Cylinder a = draw_cylinder(draw);
   const Eigen::Quaterniond orientation_a = draw.orientation();
-  const Shape b = draw_other(draw, pair);
+  const Shape b = draw_other(draw, pair, modifiers);
   Bodies bodies{a, orientation_a, b, draw.orientation()};
-  reshape(draw, proportions, bodies);
+  reshape(draw, modifiers.proportions(), bodies);
   return bodies;
 }
 
@@ -212,27 +354,53 @@ double smaller_size(const Bodies& bodies) {
   return std::min(smallest_half_extent(bodies.a), smallest_half_extent(bodies.b));
 }
 
+namespace {
+
+/// Axes of a box, or faces or edges of a hull, of which one is met.
+std::int64_t choices(const Shape& b, Feature feature) {
+  constexpr std::int64_t axes_of_a_box = 3;
+  const auto* hull = std::get_if<Convex>(&b);
+  if (!hull || feature == Feature::vertex) return axes_of_a_box;
+  return feature == Feature::edge ? std::ssize(hull->edges()) : std::ssize(hull->faces());
+}
+
+}  // namespace
+
 Configuration meet(Draw& draw, const Bodies& bodies, Feature on_a, Feature on_b, double distance) {
-  const int axis = static_cast<int>(draw.integer(0, 2));
-  return meet_at(draw, bodies, on_a, on_b, distance, axis);
+  const int which = static_cast<int>(draw.integer(0, choices(bodies.b, on_b) - 1));
+  return meet_at(draw, bodies, on_a, on_b, distance, which);
 }
 
 Configuration meet_at(Draw& draw, const Bodies& bodies, Feature on_a, Feature on_b, double distance,
-                      int edge) {
+                      int which) {
   const Axes axes_a = axes(bodies.orientation_a), axes_b = axes(bodies.orientation_b);
-  const Directions of_a = directions_of_a(draw, axes_a, on_a);
-  const Directions of_b = directions_of_b(draw, bodies, axes_b, on_b, edge);
-  const bool b_is_plane = std::holds_alternative<Plane>(bodies.b);
-  const Vec3 n = common_normal(draw, of_a, of_b, b_is_plane);
+  const auto* hull = std::get_if<Convex>(&bodies.b);
+  const Vec3 n = hull ? normal_at_hull(draw, axes_a.z, on_a, {*hull, axes_b}, on_b, which)
+                      : common_normal(draw, bodies, axes_a, on_a, axes_b, on_b, which);
 
   const Vec3 point_a =
       in_world(axes_a, point_on_round(draw, bodies.a.radius(), bodies.a.half_length(), on_a,
                                       in_body(axes_a, Vec3(-n))));
-  const Vec3 point_b = std::visit(PointOnB{draw, on_b, axes_b, n, edge}, bodies.b);
+  const Vec3 point_b = std::visit(PointOnB{draw, on_b, axes_b, n, which}, bodies.b);
   const Vec3 centre_b{draw.uniform(-1, 1), draw.uniform(-1, 1), draw.uniform(-1, 1)};
   return {bodies.a, Pose(centre_b + ((point_b - point_a) + distance * n), bodies.orientation_a),
           bodies.b, Pose(centre_b, bodies.orientation_b)};
 }
+
+namespace {
+
+/// Radius of the largest ball about its origin that a hull holds.
+double held_radius(const Convex& hull) {
+  double radius = std::numeric_limits<double>::infinity();
+  for (int number = 0; number < std::ssize(hull.faces()); ++number) {
+    const Convex::Face& face = hull.faces()[static_cast<std::size_t>(number)];
+    const Vec3& on_face = hull.vertices()[static_cast<std::size_t>(face.vertices.front())];
+    radius = std::min(radius, std::abs(dot(outward_normal(hull, number), on_face)));
+  }
+  return radius;
+}
+
+}  // namespace
 
 Configuration overlap_deeply(Draw& draw, const Bodies& bodies, Proportions proportions) {
   if (std::holds_alternative<Plane>(bodies.b)) {
@@ -240,7 +408,11 @@ Configuration overlap_deeply(Draw& draw, const Bodies& bodies, Proportions propo
     return meet(draw, bodies, Feature::rim, Feature::cap, distance);
   }
   const bool thin_a = proportions == Proportions::needle || proportions == Proportions::coin;
-  const double max_distance = thin_a ? smallest_half_extent(bodies.b) : smaller_size(bodies);
+  double max_distance = thin_a ? smallest_half_extent(bodies.b) : smaller_size(bodies);
+  if (const auto* hull = std::get_if<Convex>(&bodies.b); hull && !hull->is_flat()) {
+    max_distance = held_radius(*hull);
+    if (!thin_a) max_distance = std::min(max_distance, smallest_half_extent(bodies.a));
+  }
   const Vec3 centre_b{draw.uniform(-1, 1), draw.uniform(-1, 1), draw.uniform(-1, 1)};
   const double distance = max_distance * draw.uniform(0, 1);
   const Vec3 centre_a = centre_b + distance * draw.direction();
@@ -344,13 +516,15 @@ Numbers draw_entangled(Draw& draw, Pair pair) {
   n.pair = pair;
   n.sizes.resize(size_count(pair));
   for (double& size : n.sizes) size = draw.log_uniform(0.05, 2);
+  if (pair == Pair::convex) n.vertices = draw_hull_points(draw, HullForm::usual);
   if (pair == Pair::plane) {
     n.normal = Vec3(0, 0, 1);
     n.displacement = draw.uniform(-1, 1);
   }
   n.orientation_a = draw.one_in(4) ? draw.orientation() : draw_clear_tilt(draw);
   n.position_a = draw_offset_within(draw, n.sizes);
-  if (pair != Pair::plane && draw.one_in(4)) make_depths_alike(draw, n);
+  const bool has_sizes = pair != Pair::plane && pair != Pair::convex;
+  if (has_sizes && draw.one_in(4)) make_depths_alike(draw, n);
   const bool has_sides = pair == Pair::capsule || pair == Pair::cylinder;
   if (has_sides && draw.one_in(4)) cross_at_an_end(draw, n);
   if (pair == Pair::cylinder && draw.one_in(4)) put_caps_together(draw, n);

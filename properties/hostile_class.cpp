@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "properties/features.hpp"
+#include "properties/hulls.hpp"
 #include "properties/pose_class.hpp"
 #include "properties/recorded.hpp"
 
@@ -161,7 +162,39 @@ Quaternion with_a_length(Draw& draw, const Quaternion& q) {
   }
 }
 
+/// Points with a hull: of any form and up to the size of a given body, or of small whole numbers,
+/// so that faces are plane and edges aligned to the last bit.
+std::vector<Vec3> draw_vertices(Draw& draw, const std::vector<double>& sizes) {
+  constexpr HullForm forms[] = {HullForm::usual,          HullForm::regular,  HullForm::of_box,
+                                HullForm::of_prism,       HullForm::triangle, HullForm::wedge,
+                                HullForm::nearly_coplanar};
+  for (;;) {
+    std::vector<Vec3> points;
+    if (draw.one_in(3)) {
+      const auto coordinate = [&] { return static_cast<double>(draw.integer(-2, 2)); };
+      for (std::int64_t count = draw.integer(3, 10); count > 0; --count) {
+        points.push_back({coordinate(), coordinate(), coordinate()});
+      }
+    } else {
+      const auto proportions = draw.one_in(8) ? Proportions::plate : Proportions::usual;
+      points = draw_hull_points(draw, draw.any_of(forms), proportions);
+    }
+    const double size = draw.any_of(sizes);
+    for (Vec3& p : points) p *= size;
+    if (has_hull(points)) return points;
+  }
+}
+
 // Positions
+
+/// Lengths at which parts of the two shapes are: a hull's are those of its vertices' coordinates.
+std::vector<double> lengths_of(const Numbers& n) {
+  std::vector<double> lengths = n.sizes;
+  for (const Vec3& vertex : n.vertices) {
+    for (int i = 0; i < 3; ++i) lengths.push_back(std::abs(vertex[i]));
+  }
+  return lengths;
+}
 
 /// A coordinate at which parts of the two shapes coincide, or any within their reach, often with a
 /// small error.
@@ -190,7 +223,7 @@ double draw_coordinate(Draw& draw, const std::vector<double>& sizes) {
 
 /// An offset along and across one of the bodies' axes, or with three coordinates.
 Vec3 draw_aligned_offset(Draw& draw, const Numbers& n) {
-  const auto& sizes = n.sizes;
+  const std::vector<double> sizes = lengths_of(n);
   const double across = draw_coordinate(draw, sizes), along = draw_coordinate(draw, sizes);
   const double aside = draw.coin() ? 0 : draw_coordinate(draw, sizes);
   const Vec3 headings[] = {Vec3(1, 0, 0), Vec3(0, 1, 0), draw.direction_across(Vec3(0, 0, 1))};
@@ -250,6 +283,7 @@ Numbers draw_bodies_near_contact(Draw& draw, Pair pair) {
   Numbers n;
   n.pair = pair;
   n.sizes = draw_sizes(draw, pair);
+  if (pair == Pair::convex) n.vertices = draw_vertices(draw, n.sizes);
   if (pair == Pair::plane) {
     n.normal = draw.coin() ? Vec3(0, 0, 1) : draw.direction();
     n.displacement = draw.coin() ? 0 : draw_coordinate(draw, n.sizes);
@@ -350,13 +384,16 @@ double in_range(double x) {
 
 bool is_zero(const Quaternion& q) { return q.w() == 0 && q.x() == 0 && q.y() == 0 && q.z() == 0; }
 
-/// Makes sizes positive, quaternions and normals nonzero, and a plane's distance from its origin at
-/// most max_number.
+/// Makes sizes positive, quaternions and normals nonzero, of vertices on a line a triangle, and a
+/// plane's distance from its origin at most max_number.
 void make_valid(Numbers& n) {
   for (double* x : every_number(n)) *x = in_range(*x);
   for (double& size : n.sizes) size = size == 0 ? 1 : std::abs(size);
   if (is_zero(n.orientation_a)) n.orientation_a.w() = 1;
   if (is_zero(n.orientation_b)) n.orientation_b.w() = 1;
+  if (n.pair == Pair::convex && !has_hull(n.vertices)) {
+    n.vertices = {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)};
+  }
   if (n.pair != Pair::plane) return;
   if (n.normal.x() == 0 && n.normal.y() == 0 && n.normal.z() == 0) n.normal.z() = 1;
   const double length =
@@ -385,7 +422,8 @@ Source draw_source(Draw& draw, Pair pair) {
 /// What rounding makes of an exact arrangement.
 Configuration draw_worn(Draw& draw, Pair pair) {
   std::vector<PoseClass> exact;
-  constexpr int suite = 2;  // later ones would change what is drawn
+  // Later ones than suite 2, and those of a pair's first one, would change what is drawn.
+  const int suite = std::max(2, arrangements(pair).front().suite);
   for (const Arrangement& a : arrangements(pair)) {
     if (a.is_exact() && a.suite <= suite) exact.push_back({pair, &a, {}});
   }

@@ -71,7 +71,7 @@ namespace {
 template <Coverage coverage>
 const std::vector<std::string>& names_covering(Pair pair) {
   static const auto all = [] {
-    std::array<std::vector<std::string>, std::size(known_pairs)> result;
+    std::array<std::vector<std::string>, std::size(all_pairs)> result;
     for (const Pair p : all_pairs) {
       for (const PoseClass& c : covering_classes(p, coverage)) {
         result[static_cast<std::size_t>(p)].push_back(c.name());
@@ -97,7 +97,7 @@ std::optional<PoseClass> find_pose_class(Pair pair, std::string_view name) {
 }
 
 std::optional<PoseClass> find_pose_class(std::string_view pair, std::string_view name) {
-  for (const Pair each : known_pairs) {
+  for (const Pair each : all_pairs) {
     if (pair == pair_name(each)) {
       const PoseClass given = given_class(each);
       return name == given.name() ? given : find_pose_class(each, name);

@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 #include <initializer_list>
-#include <stdexcept>
 
+#include "oracle/hull.hpp"
 #include "properties/pose_class.hpp"
 
 namespace touchstone {
@@ -47,7 +47,43 @@ Eigen::Quaterniond Lattice::orientation(const Eigen::Quaterniond& turn) const {
 
 namespace {
 
-Shape other_shape(Pair pair, const Lattice& l, const Sizes& s) {
+/// A triangle with the edge x = radius_b, three times as long as the box's, about the box's middle
+/// section.
+std::vector<Vec3> triangle_points(const Lattice& l, const Sizes& s) {
+  const auto point = [&](Steps x, Steps y) { return Vec3(l.length(x), l.length(y), 0); };
+  return {point(s.radius_b, -3 * s.other_b), point(s.radius_b, 3 * s.other_b),
+          point(-5 * s.radius_b, 0)};
+}
+
+/// A box, some of whose corners are cut off by up to a sixteenth of each edge: never those two on
+/// which bodies touch that are turned by 3-4-5 angles.
+std::vector<Vec3> cut_box_points(Draw& draw, const Lattice& l, const Sizes& s) {
+  const std::array<Steps, 3> half = {s.radius_b, s.other_b, s.half_b};
+  std::vector<Vec3> points;
+  for (int corner = 0; corner < 8; ++corner) {
+    std::array<Steps, 3> at = half;
+    for (int i = 0; i < 3; ++i) {
+      if ((corner >> i & 1) != 0) at[static_cast<std::size_t>(i)] *= -1;
+    }
+    const auto point = [&](const std::array<Steps, 3>& steps) {
+      return Vec3(l.length(steps[0]), l.length(steps[1]), l.length(steps[2]));
+    };
+    const bool is_whole = s.hull == HullForm::of_box || (at[1] > 0 && at[2] > 0);
+    if (is_whole || draw.coin()) {
+      points.push_back(point(at));
+      continue;
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+      std::array<Steps, 3> on_edge = at;
+      const Steps cut = draw.integer(1, std::max<Steps>(1, half[i] / 8));
+      on_edge[i] += at[i] > 0 ? -cut : cut;
+      points.push_back(point(on_edge));
+    }
+  }
+  return points;
+}
+
+Shape other_shape(Draw& draw, Pair pair, const Lattice& l, const Sizes& s) {
   switch (pair) {
     case Pair::plane:
       return Plane(Vec3(0, 0, 1), 0);
@@ -57,19 +93,21 @@ Shape other_shape(Pair pair, const Lattice& l, const Sizes& s) {
       return Capsule(l.length(s.radius_b), l.length(s.half_b));
     case Pair::cylinder:
       return Cylinder(l.length(s.radius_b), l.length(s.half_b));
-    case Pair::box:
-      return Box(Vec3(l.length(s.radius_b), l.length(s.other_b), l.length(s.half_b)));
     case Pair::convex:
+      return oracle::convex_hull(s.hull == HullForm::triangle ? triangle_points(l, s)
+                                                              : cut_box_points(draw, l, s));
+    case Pair::box:
       break;
   }
-  throw std::logic_error("no such pair");
+  return Box(Vec3(l.length(s.radius_b), l.length(s.other_b), l.length(s.half_b)));
 }
 
 }  // namespace
 
-Sizes draw_sizes(Draw& draw, const Lattice& lattice, Proportions proportions) {
+Sizes draw_sizes(Draw& draw, const Lattice& lattice, const Modifiers& modifiers) {
+  const Proportions proportions = modifiers.proportions();
   const auto size = [&] { return lattice.draw_size(draw); };
-  Sizes s{size(), size(), size(), size(), size()};
+  Sizes s{size(), size(), size(), size(), size(), modifiers.hull()};
   const auto form = [](Form f, Steps& radius, Steps& half) {
     if (f == Form::usual) return;
     half = radius;
@@ -95,6 +133,7 @@ Sizes draw_sizes(Draw& draw, const Lattice& lattice, Proportions proportions) {
       divide({&s.radius_b, &s.half_b, &s.other_b}, ratio);
     }
   }
+  if (s.hull == HullForm::triangle) s.half_b = 0;
   return s;
 }
 
@@ -109,12 +148,13 @@ Configuration place(Draw& draw, Pair pair, const Lattice& l, const Sizes& s, con
   const Steps x = draw_offset(draw, Lattice::metre), y = draw_offset(draw, Lattice::metre),
               z = draw_offset(draw, Lattice::metre);
   return {Cylinder(l.length(s.radius_a), l.length(s.half_a)),
-          Pose(l.at(x + p.x, y + p.y, z + p.z), l.orientation(p.turn_a)), other_shape(pair, l, s),
-          Pose(l.at(x, y, z), l.orientation(p.turn_b))};
+          Pose(l.at(x + p.x, y + p.y, z + p.z), l.orientation(p.turn_a)),
+          other_shape(draw, pair, l, s), Pose(l.at(x, y, z), l.orientation(p.turn_b))};
 }
 
 Steps draw_depth(Draw& draw, const Sizes& s, Clearance clearance) {
-  const Steps smallest = std::min({s.radius_a, s.half_a, s.radius_b, s.half_b, s.other_b});
+  Steps smallest = std::min({s.radius_a, s.half_a, s.radius_b, s.other_b});
+  if (s.half_b > 0) smallest = std::min(smallest, s.half_b);
   const auto size = static_cast<double>(smallest);
   const auto steps = [&](double part) {
     return std::max<Steps>(1, static_cast<Steps>(size * part));
@@ -138,7 +178,7 @@ using Place = Placement (*)(Draw&, Pair, const Sizes&, Steps depth);
 Configuration placed(Draw& draw, Pair pair, Clearance clearance, const Modifiers& m,
                      const std::vector<Place>& places) {
   const Lattice lattice(draw, m.frame());
-  const Sizes sizes = draw_sizes(draw, lattice, m.proportions());
+  const Sizes sizes = draw_sizes(draw, lattice, m);
   const Steps depth = draw_depth(draw, sizes, clearance);
   const Place where = places.size() == 1 ? places.front() : draw.any_of(places);
   const Placement p = where(draw, pair, sizes, depth);
@@ -160,7 +200,7 @@ Placement cap_centred(Draw&, Pair pair, const Sizes& s, Steps depth) {
 /// The offset is small enough that the cap does not miss what it stands on.
 Placement cap_offset(Draw& draw, Pair pair, const Sizes& s, Steps depth) {
   const Steps beyond_x = pair == Pair::capsule ? 0 : s.radius_b;
-  const Steps beyond_y = pair == Pair::capsule ? 0 : pair == Pair::box ? s.other_b : s.radius_b;
+  const Steps beyond_y = pair == Pair::capsule ? 0 : has_faces(pair) ? s.other_b : s.radius_b;
   return {draw_offset(draw, (s.radius_a + beyond_x) / 2),
           draw_offset(draw, (s.radius_a + beyond_y) / 2), s.half_a + reach_b(pair, s) - depth};
 }
@@ -187,7 +227,7 @@ Placement cap_on_side(Draw& draw, Pair, const Sizes& s, Steps depth) {
 Placement cap_on_side_centred(Draw&, Pair, const Sizes& s, Steps depth) {
   return {0, 0, s.half_a + s.radius_b - depth, along_x};
 }
-/// A's side on a face of the box, which is turned so that its z face points along x.
+/// A's side on a face of B, which is turned so that its z face points along x.
 Placement side_on_face(Draw& draw, Pair, const Sizes& s, Steps depth) {
   return {s.radius_a + s.half_b - depth, draw_offset(draw, s.other_b / 2),
           draw_offset(draw, s.half_a / 2), along_x};
@@ -195,9 +235,9 @@ Placement side_on_face(Draw& draw, Pair, const Sizes& s, Steps depth) {
 Placement side_on_face_centred(Draw&, Pair, const Sizes& s, Steps depth) {
   return {s.radius_a + s.half_b - depth, 0, 0, along_x};
 }
-/// A box's edge across the side at a right angle: the box is turned about y by arctan(3/4), so that
-/// its edge lies at ((4 radius_b + 3 half_b)/5, (4 half_b - 3 radius_b)/5) in the x-z plane through
-/// the box's centre, but for less than a step.
+/// An edge across the side at a right angle: B is turned about y by arctan(3/4), so that its edge
+/// lies at ((4 radius_b + 3 half_b)/5, (4 half_b - 3 radius_b)/5) in the x-z plane through B's
+/// centre, but for less than a step.
 Placement edge_across_side(Draw& draw, Pair, const Sizes& s, Steps depth) {
   const Steps edge_x = (4 * s.radius_b + 3 * s.half_b) / 5;
   const Steps edge_z = (4 * s.half_b - 3 * s.radius_b) / 5;
@@ -225,7 +265,7 @@ std::vector<Place> contacts(Pair pair) {
     places.push_back(perpendicular_x);
     places.push_back(cap_on_side);
   }
-  if (pair == Pair::box) places.push_back(side_on_face);
+  if (has_faces(pair)) places.push_back(side_on_face);
   places.push_back(parallel_side);
   return places;
 }
@@ -309,13 +349,13 @@ std::vector<Arrangement> lattice_arrangements(Pair pair) {
     c.contact("cap-on-cap-offset", "Caps meet face to face beside each other: a lens of contact.",
               cap_offset);
   }
-  if (pair == Pair::box) {
+  if (has_faces(pair)) {
     c.contact("cap-on-face-centred", "The cylinder stands in the middle of a face.", cap_centred);
     c.contact("cap-on-face-offset", "The cylinder stands on a face or over its edge.", cap_offset);
     c.across("side-on-face", "The side lies exactly along a face.", side_on_face);
     c.across("side-on-face-centred", "The side lies exactly along the middle of a face.",
              side_on_face_centred);
-    c.contact("perpendicular-x", "An edge of the box crosses the side at exactly a right angle.",
+    c.contact("perpendicular-x", "An edge of B crosses the side at exactly a right angle.",
               edge_across_side)
         .clearances = {Clearance::apart, Clearance::deep};
   }

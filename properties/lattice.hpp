@@ -37,13 +37,15 @@ class Lattice {
 using Steps = std::int64_t;
 using Quaternion = Eigen::Quaterniond;
 
-/// Sizes in steps. For a box radius_b, other_b and half_b are the half extents; for a sphere only
-/// radius_b counts; a plane has none.
+/// Sizes in steps. For a box and a hull radius_b, other_b and half_b are the half extents; for a
+/// sphere only radius_b counts; a plane has none. A hull is a box with corners cut off, or holds
+/// the middle section of one if it is a triangle, whose half_b is zero.
 struct Sizes {
   Steps radius_a, half_a;
   Steps radius_b, half_b, other_b;
+  HullForm hull = HullForm::usual;
 };
-Sizes draw_sizes(Draw& draw, const Lattice& lattice, Proportions proportions);
+Sizes draw_sizes(Draw& draw, const Lattice& lattice, const Modifiers& modifiers);
 
 /// A uniform whole number from -max to max.
 Steps draw_offset(Draw& draw, Steps max);

@@ -109,13 +109,31 @@ const std::vector<Modifier>& all_modifiers() {
         {ModifierKind::proportions, value(Proportions::coin), "coin",
          "A is a coin, 1000 times wider than thick."},
         {ModifierKind::proportions, value(Proportions::plate), "plate",
-         "The box is a plate of 1000:1000:1 or a bar of 1000:1:1."},
+         "The box or hull is a plate of 1000:1000:1 or a bar of 1000:1:1."},
         {ModifierKind::proportions, value(Proportions::uneven), "uneven",
          "One body is 100 to 1000 times smaller than otherwise."},
         {ModifierKind::proportions, value(Proportions::needles), "needles",
          "Both bodies are needles, 1000 times longer than wide: where they cross hangs on the last "
          "digits of their axes.",
          2},
+        {ModifierKind::hull, value(HullForm::regular), "regular",
+         "The hull is one of the five regular solids.", 3},
+        {ModifierKind::hull, value(HullForm::of_box), "of-box",
+         "The hull is that of a box's corners: the answer is the box's.", 3},
+        {ModifierKind::hull, value(HullForm::of_prism), "of-prism",
+         "The hull is a regular prism of 3 to 16 sides, as engines make of a cylinder.", 3},
+        {ModifierKind::hull, value(HullForm::triangle), "triangle",
+         "The hull is a triangle, as floors are made of: it has no inside, two normals and three "
+         "edges.",
+         3},
+        {ModifierKind::hull, value(HullForm::wedge), "wedge",
+         "The hull is a wedge whose faces enclose 1e-1 to 1e-12 rad: normals on both sides of its "
+         "edge are nearly opposite.",
+         3},
+        {ModifierKind::hull, value(HullForm::nearly_coplanar), "nearly-coplanar",
+         "Faces of the hull lie in one plane, and vertices in one place, but for 1e-3 to 1e-15: "
+         "edges that hardly are some.",
+         3},
     };
     for (int k = 1; k <= smallest_tilt; ++k) {
       m.push_back({ModifierKind::tilt, k, fmt::format("tilted-1e-{}", k),

@@ -13,13 +13,16 @@ class Draw;
 
 /// A modifier is something that is done to an arrangement of two bodies. Those of one kind exclude
 /// each other; a name and an identity list them in this order, in which they are also applied.
-enum class ModifierKind { clearance, proportions, tilt, frame, scale, unit, distance };
-inline constexpr std::size_t modifier_kinds = 7;
+enum class ModifierKind { clearance, proportions, hull, tilt, frame, scale, unit, distance };
+inline constexpr std::size_t modifier_kinds = 8;
 
 /// How far apart the bodies are; the usual one is the arrangement's own.
 enum class Clearance { usual, shallow, apart, touching, deep };
 /// Ratios of the bodies' sizes.
 enum class Proportions { usual, needle, coin, plate, uneven, needles };
+/// What the hull is one of; the usual one is of random points, or where the arrangement is exact a
+/// box with corners cut off.
+enum class HullForm { usual, regular, of_box, of_prism, triangle, wedge, nearly_coplanar };
 /// The frame in which both bodies lie.
 enum class Frame { usual, aligned, turned, worn };
 enum class Scale { usual, tiny, huge };
@@ -44,6 +47,7 @@ class Modifiers {
   Proportions proportions() const {
     return static_cast<Proportions>((*this)[ModifierKind::proportions]);
   }
+  HullForm hull() const { return static_cast<HullForm>((*this)[ModifierKind::hull]); }
   Frame frame() const { return static_cast<Frame>((*this)[ModifierKind::frame]); }
   Scale scale() const { return static_cast<Scale>((*this)[ModifierKind::scale]); }
   bool has(const Modifier& m) const { return (*this)[m.kind] == m.value; }
@@ -84,7 +88,7 @@ struct Finish {
   bool is_exact;  ///< scaling is to leave it so
   bool across;    ///< B's axis lies along A's x, and a tilt is to be towards it
 };
-/// Applies the modifiers of a finished configuration: all but clearance, proportions and the
+/// Applies the modifiers of a finished configuration: all but clearance, proportions, hull and the
 /// world's own frame, which go into its making.
 Configuration modified(Draw& draw, const Configuration& made, const Modifiers& modifiers,
                        const Finish& finish);

@@ -1,20 +1,14 @@
 #include "properties/moves.hpp"
 
-#include <utility>
 #include <vector>
+
+#include "oracle/hull.hpp"
 
 namespace touchstone {
 namespace {
 
 Pose turned_in_place(const Pose& pose, const Eigen::Quaterniond& local) {
   return {pose.position(), pose.unit_orientation() * local};
-}
-
-/// The same faces of vertices that a power of two or a small step has moved.
-Convex with_vertices(const Convex& s, std::vector<Vec3> vertices, double rounding) {
-  std::vector<std::vector<int>> faces;
-  for (const Convex::Face& face : s.faces()) faces.push_back(face.vertices);
-  return {std::move(vertices), std::move(faces), rounding};
 }
 
 struct Scaled {
@@ -32,7 +26,7 @@ struct Scaled {
   Shape operator()(const Convex& s) const {
     std::vector<Vec3> vertices = s.vertices();
     for (Vec3& v : vertices) v *= factor;
-    return with_vertices(s, std::move(vertices), factor * s.rounding());
+    return oracle::convex_hull(vertices, factor * s.rounding());  // rounding may have made other faces
   }
   Shape operator()(const Plane& s) const { return Plane(s.normal(), factor * s.displacement()); }
 };

@@ -16,7 +16,7 @@ Placement diagonally_beyond(Draw& draw, Pair pair, const Sizes& s, Clearance cle
     return {s.radius_a + 3 * part, 0, s.half_a + s.half_b + 4 * part};
   }
   const Steps beside = draw_depth(draw, s, clearance), above = draw_depth(draw, s, clearance);
-  const Steps along_edge = pair == Pair::box ? draw_offset(draw, s.other_b / 2) : 0;
+  const Steps along_edge = has_faces(pair) ? draw_offset(draw, s.other_b / 2) : 0;
   return {s.radius_a + s.radius_b - beside, along_edge, s.half_a + s.half_b - above};
 }
 
@@ -25,7 +25,7 @@ Arrangement diagonal(Pair pair) {
     const Clearance asked = m.clearance();
     const Clearance clearance = asked == Clearance::usual ? Clearance::apart : asked;
     const Lattice lattice(draw, m.frame());
-    Sizes sizes = draw_sizes(draw, lattice, m.proportions());
+    Sizes sizes = draw_sizes(draw, lattice, m);
     if (pair == Pair::capsule) sizes.radius_b -= sizes.radius_b % 5;
     return place(draw, pair, lattice, sizes, diagonally_beyond(draw, pair, sizes, clearance));
   };
@@ -56,8 +56,8 @@ void lengthen(Sizes& s, Proportions proportions) {
 Arrangement contained(Pair pair) {
   const auto generate = [pair](Draw& draw, const Modifiers& m) {
     const Lattice lattice(draw, m.frame());
-    Sizes sizes = draw_sizes(draw, lattice, m.proportions());
-    const Steps radius = sizes.radius_b, breadth = pair == Pair::box ? sizes.other_b : radius;
+    Sizes sizes = draw_sizes(draw, lattice, m);
+    const Steps radius = sizes.radius_b, breadth = has_faces(pair) ? sizes.other_b : radius;
     const Steps max_along = (sizes.half_a + sizes.half_b) / 2;
     lengthen(sizes, m.proportions());
     // Not beyond 0.85 of a round body's radius.

@@ -17,6 +17,9 @@ std::vector<Arrangement> make_arrangements(Pair pair) {
   for (Arrangement& a : lattice_arrangements(pair)) all.push_back(std::move(a));
   all.push_back(touching_tilted(pair));
   for (Arrangement& a : parallel_arrangements(pair)) all.push_back(std::move(a));
+  if (pair == Pair::convex) {
+    for (Arrangement& a : all) a.suite = 3;
+  }
   if (auto recorded = recorded_arrangement(pair)) all.push_back(std::move(*recorded));
   all.push_back(hostile(pair));
   return all;
@@ -24,8 +27,8 @@ std::vector<Arrangement> make_arrangements(Pair pair) {
 
 /// One of each pair, made when it is first asked for.
 template <class Value, class Make>
-std::array<Value, std::size(known_pairs)> of_each_pair(const Make& make) {
-  std::array<Value, std::size(known_pairs)> result;
+std::array<Value, std::size(all_pairs)> of_each_pair(const Make& make) {
+  std::array<Value, std::size(all_pairs)> result;
   for (const Pair pair : all_pairs) result[static_cast<std::size_t>(pair)] = make(pair);
   return result;
 }
@@ -87,7 +90,7 @@ std::vector<PoseClass> make_old_classes(Pair pair) {
     return std::find(names.begin(), names.end(), a.name) != names.end();
   };
   add_if([&](const Arrangement& a) {
-    return a.is_exact() && a.suite == 1 && !came_with_modifiers(a);
+    return a.is_exact() && a.suite == all.front().suite && !came_with_modifiers(a);
   });
   for (const Arrangement& a : all) {
     if (!is_aligned(a)) continue;
@@ -137,6 +140,15 @@ std::optional<std::string> set_modifier(PoseClass& c, std::string_view part) {
   return fmt::format("must have modifiers such as {}", nearest(part, known));
 }
 
+/// Why an arrangement cannot have a hull of that form.
+std::optional<std::string_view> nonsense_of_hull(const Arrangement& a, HullForm form) {
+  if (!a.is_exact() || form == HullForm::of_box) return std::nullopt;
+  if (form != HullForm::triangle) return "its hull is a box with corners cut off, which is exact";
+  if (a.own == Clearance::deep) return "nothing lies within a triangle";
+  if (a.orientations == Orientations::pitched) return "it is about features that a box has";
+  return std::nullopt;
+}
+
 }  // namespace
 
 const std::vector<Arrangement>& arrangements(Pair pair) {
@@ -171,14 +183,15 @@ Group PoseClass::group() const {
   if (o == Orientations::recorded) return Group::recorded;
   if (o == Orientations::given) return Group::given;
   if (o == Orientations::mixed || clearance == Clearance::deep ||
-      modifiers[ModifierKind::proportions] != 0 || modifiers[ModifierKind::scale] != 0 ||
-      modifiers[ModifierKind::distance] != 0) {
+      modifiers.hull() == HullForm::wedge || modifiers[ModifierKind::proportions] != 0 ||
+      modifiers[ModifierKind::scale] != 0 || modifiers[ModifierKind::distance] != 0) {
     return Group::extreme;
   }
   const bool is_turned = modifiers.frame() == Frame::turned || modifiers.frame() == Frame::worn;
   const bool exact = arrangement->is_exact() && !is_turned;
   if (exact || arrangement->is_symmetric || arrangement->touches ||
-      clearance == Clearance::touching || modifiers[ModifierKind::tilt] != 0) {
+      clearance == Clearance::touching || modifiers[ModifierKind::tilt] != 0 ||
+      modifiers.hull() == HullForm::nearly_coplanar) {
     return Group::degenerate;
   }
   return Group::everyday;
@@ -211,8 +224,8 @@ std::optional<std::string_view> nonsense(Pair pair, const Arrangement& a, const 
       if (static_cast<Clearance>(m.value) == Clearance::touching) return "it cannot be exact";
       return "another feature than its own would be nearer, as in general+deep";
     case ModifierKind::proportions:
-      if (static_cast<Proportions>(m.value) == Proportions::plate && pair != Pair::box) {
-        return "neither body is a box";
+      if (static_cast<Proportions>(m.value) == Proportions::plate && !has_faces(pair)) {
+        return "neither body is a box or a hull";
       }
       if (static_cast<Proportions>(m.value) == Proportions::uneven && pair == Pair::plane) {
         return "a plane has no size";
@@ -222,6 +235,9 @@ std::optional<std::string_view> nonsense(Pair pair, const Arrangement& a, const 
         return "the other body is no cylinder or capsule";
       }
       return std::nullopt;
+    case ModifierKind::hull:
+      if (pair != Pair::convex) return "neither body is a hull";
+      return nonsense_of_hull(a, static_cast<HullForm>(m.value));
     case ModifierKind::tilt:
       if (a.orientations == Orientations::random) return "its axes are at a random angle already";
       if (a.orientations == Orientations::pitched) return "it is tilted already";

@@ -33,7 +33,7 @@ struct Arrangement {
   bool across = false;               ///< B's axis lies along A's x, at a right angle to A's
   bool is_symmetric = false;         ///< centres or axes coincide
   bool touches = false;              ///< whatever clearance is asked for
-  int suite = 1;                     ///< the first touchstone-suite that may have it
+  int suite = 1;  ///< the first touchstone-suite that may have it; the first one's is its pair's
 
   /// Whether nothing in it is rounded.
   bool is_exact() const {
@@ -60,6 +60,9 @@ std::optional<Arrangement> recorded_arrangement(Pair pair);
 /// Combinations of all difficulties.
 Arrangement hostile(Pair pair);
 
+/// Whether body B has faces, edges and vertices: it is a box or a hull.
+inline bool has_faces(Pair pair) { return pair == Pair::box || pair == Pair::convex; }
+
 /// Why a modifier makes no sense of an arrangement of that pair; absent where it does.
 std::optional<std::string_view> nonsense(Pair pair, const Arrangement& arrangement,
                                          const Modifier& modifier);
@@ -81,8 +84,8 @@ const std::vector<PoseClass>& old_classes(Pair pair);
 
 /// A covering array: every sensible combination of `strength` (2 or 3) of an arrangement and
 /// modifiers occurs in at least one class. It begins with the old classes, then has every
-/// arrangement alone and, where it makes sense, aligned, turned and worn; "recorded" is the last.
-/// `Coverage::suite_1` is of what there was then.
+/// arrangement alone and, where it makes sense, aligned, turned and worn, and with each form of
+/// hull; "recorded" is the last. `Coverage::suite_1` is of what there was then.
 const std::vector<PoseClass>& covering_classes(Pair pair, Coverage coverage);
 
 }  // namespace touchstone

@@ -40,8 +40,9 @@ void expect_of_each(const std::vector<Pair>& pairs, const std::vector<std::strin
   EXPECT_TRUE(any) << "no pair has such a class";
 }
 inline const std::vector<Pair> every_pair(std::begin(all_pairs), std::end(all_pairs));
-/// Those whose body B has an axis.
-inline const std::vector<Pair> pairs_of_axes = {Pair::capsule, Pair::cylinder, Pair::box};
+/// Those whose body B has an axis, a hull where it lies exactly aligned.
+inline const std::vector<Pair> pairs_of_axes = {Pair::capsule, Pair::cylinder, Pair::box,
+                                                Pair::convex};
 
 using ExactVector = std::array<mpq_class, 3>;
 
@@ -93,6 +94,7 @@ inline mpq_class offset_along(const Configuration& c, const Pose& pose, int i) {
 /// B's half extents along its local axes; a capsule's without its round ends.
 inline Vec3 half_extents_of_b(const Configuration& c) {
   if (const auto* s = std::get_if<Box>(&c.b)) return s->half_extents();
+  if (const auto* s = std::get_if<Convex>(&c.b)) return s->half_extents();
   if (const auto* s = std::get_if<Capsule>(&c.b)) {
     return {s->radius(), s->radius(), s->half_length()};
   }

@@ -97,7 +97,7 @@ std::vector<Numbers> distinct_rows(Pair pair) {
 
 const std::vector<Recorded>& recorded(Pair pair) {
   static const auto all = [] {
-    std::array<std::vector<Recorded>, std::size(known_pairs)> result;
+    std::array<std::vector<Recorded>, std::size(all_pairs)> result;
     for (const Pair p : all_pairs) result[static_cast<std::size_t>(p)] = recorded_of(p);
     return result;
   }();
@@ -146,7 +146,7 @@ std::optional<Arrangement> recorded_arrangement(Pair pair) {
 
 const std::vector<Numbers>& known_failures(Pair pair) {
   static const auto all = [] {
-    std::array<std::vector<Numbers>, std::size(known_pairs)> result;
+    std::array<std::vector<Numbers>, std::size(all_pairs)> result;
     for (const Pair p : all_pairs) result[static_cast<std::size_t>(p)] = distinct_rows(p);
     return result;
   }();

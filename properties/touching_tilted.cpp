@@ -136,19 +136,18 @@ std::vector<Way> ways_of(Pair pair) {
     case Pair::cylinder:
       return {rim_on_side, rim_on_cap, rim_on_rim};
     case Pair::box:
-      return {rim_on_face,     edge_on_cap,   edge_across_rim, edge_across_side,
-              edge_along_side, vertex_on_cap, vertex_on_side,  vertex_on_rim};
     case Pair::convex:
       break;
   }
-  return {};
+  return {rim_on_face,     edge_on_cap,   edge_across_rim, edge_across_side,
+          edge_along_side, vertex_on_cap, vertex_on_side,  vertex_on_rim};
 }
 
-Sizes draw_divisible_sizes(Draw& draw, const Lattice& lattice, Proportions proportions) {
+Sizes draw_divisible_sizes(Draw& draw, const Lattice& lattice, const Modifiers& modifiers) {
   const auto divisible = [](Steps s) { return s - s % common_denominator; };
-  const Sizes s = draw_sizes(draw, lattice, proportions);
-  return {divisible(s.radius_a), divisible(s.half_a), divisible(s.radius_b), divisible(s.half_b),
-          divisible(s.other_b)};
+  const Sizes s = draw_sizes(draw, lattice, modifiers);
+  return {divisible(s.radius_a), divisible(s.half_a),  divisible(s.radius_b),
+          divisible(s.half_b),   divisible(s.other_b), s.hull};
 }
 
 }  // namespace
@@ -156,7 +155,7 @@ Sizes draw_divisible_sizes(Draw& draw, const Lattice& lattice, Proportions propo
 Arrangement touching_tilted(Pair pair) {
   const auto generate = [pair, ways = ways_of(pair)](Draw& draw, const Modifiers& modifiers) {
     const Lattice lattice(draw, modifiers.frame());
-    const Sizes sizes = draw_divisible_sizes(draw, lattice, modifiers.proportions());
+    const Sizes sizes = draw_divisible_sizes(draw, lattice, modifiers);
     const auto choice = draw.integer(0, static_cast<Steps>(ways.size()) - 1);
     const Meeting m = ways[static_cast<std::size_t>(choice)](draw, sizes);
     const Point a = turned(m.turn_a, m.on_a), b = turned(m.turn_b, m.on_b);

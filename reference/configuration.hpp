@@ -16,12 +16,8 @@ struct Configuration {
 
 /// Which shape meets the cylinder.
 enum class Pair { plane, sphere, capsule, cylinder, box, convex };
-/// Those for which there are pose classes: the bodies that they draw have sizes, a hull has not.
-inline constexpr Pair all_pairs[] = {Pair::plane, Pair::sphere, Pair::capsule, Pair::cylinder,
-                                     Pair::box};
-/// And those that only given configurations have.
-inline constexpr Pair known_pairs[] = {Pair::plane,    Pair::sphere, Pair::capsule,
-                                       Pair::cylinder, Pair::box,    Pair::convex};
+inline constexpr Pair all_pairs[] = {Pair::plane,    Pair::sphere, Pair::capsule,
+                                     Pair::cylinder, Pair::box,    Pair::convex};
 
 Pair pair_of(const Configuration& configuration);
 /// "cylinder-plane", "cylinder-sphere", "cylinder-capsule", "cylinder-cylinder", "cylinder-box",

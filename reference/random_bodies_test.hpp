@@ -62,7 +62,11 @@ class Random {
   std::mt19937_64 random_;
 };
 
-/// A shape that meets the cylinder; `size` and `plane` are asked for what it needs.
+/// Those whose shapes are given by sizes alone, which a hull is not.
+inline constexpr Pair pairs_of_sizes[] = {Pair::plane, Pair::sphere, Pair::capsule, Pair::cylinder,
+                                          Pair::box};
+
+/// A shape of one of these that meets the cylinder; `size` and `plane` are asked for what it needs.
 template <class Size, class MakePlane>
 Shape shape_of_sizes(Pair pair, Size size, MakePlane plane) {
   if (pair == Pair::plane) return plane();

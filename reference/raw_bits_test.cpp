@@ -179,7 +179,7 @@ TEST_P(AnyBits, AreTheSameWhateverTheUnitOfLength) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(, AnyBits, testing::ValuesIn(all_pairs), name_of_other);
+INSTANTIATE_TEST_SUITE_P(, AnyBits, testing::ValuesIn(pairs_of_sizes), name_of_other);
 
 }  // namespace
 }  // namespace touchstone

@@ -285,7 +285,7 @@ Report make_report(const Campaign& campaign, const std::string& command) {
   add_results(report, scored);
   for (PoseClassDescription& c : report.classes) {
     if (c.group == group_name(Group::given))
-      c.digest = digest_of_own(campaign.own.at(named(known_pairs, c.pair, "pair", pair_name)));
+      c.digest = digest_of_own(campaign.own.at(named(all_pairs, c.pair, "pair", pair_name)));
   }
   if (!report.partial) report.drake_protocol = drake_protocol(campaign, candidates);
   report.wall_seconds =

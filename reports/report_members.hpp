@@ -19,7 +19,7 @@ namespace touchstone {
 
 inline const auto& values_of(Outcome) { return all_outcomes; }
 inline const char* name_of(Outcome outcome) { return outcome_name(outcome); }
-inline const auto& values_of(Pair) { return known_pairs; }
+inline const auto& values_of(Pair) { return all_pairs; }
 inline const char* name_of(Pair pair) { return pair_name(pair); }
 inline const auto& values_of(Group) { return reported_groups; }
 inline const char* name_of(Group group) { return group_name(group); }

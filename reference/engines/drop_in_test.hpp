@@ -9,6 +9,7 @@
 
 #include "properties/identity.hpp"
 #include "reference/contact_of.hpp"
+#include "reference/random_bodies_test.hpp"
 #include "reference/reduce_points.hpp"
 
 namespace touchstone {

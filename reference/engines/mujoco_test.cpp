@@ -101,7 +101,7 @@ class MujocoDropIn : public testing::Test {
 constexpr double rounded_by_xml = 1e-12;
 
 TEST_F(MujocoDropIn, AnswersEveryPairWhicheverGeomComesFirst) {
-  for (const Pair pair : all_pairs) {
+  for (const Pair pair : pairs_of_sizes) {
     for (const Identity& id : everyday_poses(pair, 2)) {
       const Configuration c = make_configuration(id);
       SCOPED_TRACE(to_string(id));
@@ -175,7 +175,7 @@ TEST_F(MujocoDropIn, LetsThreadsCollideAtOnce) {
 TEST_F(MujocoDropIn, UninstallGivesBackMujocosOwnAnswers) {
   const auto answers = [] {
     std::vector<double> numbers;
-    for (const Pair pair : all_pairs) {
+    for (const Pair pair : pairs_of_sizes) {
       for (const Identity& id : everyday_poses(pair, 1)) {
         append(numbers, Scene(make_configuration(id), true, 0).points());
       }

@@ -131,7 +131,7 @@ class AnswerReader {
       result.push_back(std::move(found->second));
       return cells_.erase(found);
     };
-    for (const Pair pair : known_pairs) {
+    for (const Pair pair : all_pairs) {
       for (const std::string& name : pose_classes(pair)) {
         if (const auto found = cells_.find({pair, name}); found != cells_.end()) add(found);
       }

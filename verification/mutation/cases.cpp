@@ -108,6 +108,7 @@ void write_cases(const std::string& file, const std::string& net, std::uint64_t 
   std::FILE* f = opened(file, "wb");
   for (std::uint64_t i = 0; i < count; ++i) {
     for (const Pair pair : all_pairs) {
+      if (pair == Pair::convex) continue;  // a raw configuration has sizes, no vertices
       if (net == "hostile") {
         const bool has_search = pair != Pair::plane && pair != Pair::sphere;
         if (has_search || i % 8 == 0) write(f, make_case({pair, "hostile", seed, i}));
