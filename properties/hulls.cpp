@@ -129,7 +129,7 @@ std::vector<Vec3> draw_triangle(Draw& draw) {
 /// Two large faces that meet along y at a small angle.
 std::vector<Vec3> draw_wedge(Draw& draw) {
   const double length = draw_length(draw), breadth = draw_length(draw);
-  const double thick = length * draw.log_uniform(1e-12, 1e-1);
+  const double thick = length * draw.log_uniform(1e-6, 1e-1);
   std::vector<Vec3> points;
   for (const double y : {breadth, -breadth}) {
     points.emplace_back(length, y, 0);

@@ -127,7 +127,7 @@ const std::vector<Modifier>& all_modifiers() {
          "edges.",
          3},
         {ModifierKind::hull, value(HullForm::wedge), "wedge",
-         "The hull is a wedge whose faces enclose 1e-1 to 1e-12 rad: normals on both sides of its "
+         "The hull is a wedge whose faces enclose 1e-1 to 1e-6 rad: normals on both sides of its "
          "edge are nearly opposite.",
          3},
         {ModifierKind::hull, value(HullForm::nearly_coplanar), "nearly-coplanar",

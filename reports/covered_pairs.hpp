@@ -12,7 +12,7 @@ struct CoveredPairs {
   std::size_t covered = 0, all = 0;
 
   bool are_all() const { return covered == all; }
-  /// " (4 of 5 pairs)"; empty where they are all.
+  /// " (5 of 6 pairs)"; empty where they are all.
   std::string text() const;
 };
 CoveredPairs covered_pairs(const Report& report, const std::string& group,

@@ -176,12 +176,12 @@ TEST(Report, MarksWhoHasNoRoutineForSomePairs) {
     EXPECT_THAT(details, ContainsRegex("all pairs, everyday poses\n.*\n.*\nlibccd-gjk 2/3 +[0-9]"));
     for (const std::string& text : {table, details}) {
       EXPECT_THAT(text, ContainsRegex("\nlibccd-gjk 2/3 +[0-9]"));
-      EXPECT_THAT(text, ContainsRegex("\n4/5: over four of five pairs"));
+      EXPECT_THAT(text, ContainsRegex("\n5/6: over five of six pairs"));
       EXPECT_THAT(text, Not(ContainsRegex("(reference|bullet) ./")));
     }
   }
   c.candidates.pop_back();
-  EXPECT_THAT(terminal_table(make_report(c, "x")), Not(HasSubstr("4/5")));
+  EXPECT_THAT(terminal_table(make_report(c, "x")), Not(HasSubstr("5/6")));
 }
 
 TEST(Report, IsOfAPersonsOwnConfigurationsByTheirIds) {

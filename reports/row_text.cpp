@@ -120,7 +120,7 @@ std::string marks_text(const Report& report, const Terminal& terminal) {
         return row.statistics.supported() > 0 && !covered_mark(report, row).empty();
       })) {
     text += terminal.folded(
-        "4/5: over four of five pairs, for the candidate has no routine for the other");
+        "5/6: over five of six pairs, for the candidate has no routine for the other");
   }
   if (any([](const ResultRow& row) { return row.statistics.is_stopped(); })) {
     text += terminal.folded(fmt::format(

@@ -21,6 +21,7 @@
 #include "oracle/truth.hpp"
 #include "properties/files/configuration_json.hpp"
 #include "properties/identity.hpp"
+#include "reference/random_bodies_test.hpp"
 #include "reports/solve.hpp"
 
 namespace touchstone {
@@ -142,6 +143,8 @@ std::vector<Identity> identities(Pair pair) {
 }
 
 class Certificates : public testing::TestWithParam<Pair> {};
+/// Of bodies whose sizes are set to such lengths.
+class CertificatesOfExtremes : public Certificates {};
 
 // oracle/check_certificate_test.py and oracle/forge_certificates.py hold what must be rejected.
 TEST_P(Certificates, AreAcceptedAndEncloseTheTruth) {
@@ -203,7 +206,7 @@ Configuration scaled(const Configuration& c, int exponent) {
   return configuration_from_json(result).configuration;
 }
 
-TEST_P(Certificates, OfTheSmallestAndLargestLengthsAreAccepted) {
+TEST_P(CertificatesOfExtremes, OfTheSmallestAndLargestLengthsAreAccepted) {
   const Folder folder;
   std::size_t count = 0;
   for (const char* pose_class : {"general-deep", "general-shallow", "general-separated"}) {
@@ -219,7 +222,7 @@ TEST_P(Certificates, OfTheSmallestAndLargestLengthsAreAccepted) {
   folder.expect_accepted(count);
 }
 
-TEST_P(Certificates, OfMixedExtremesAreAccepted) {
+TEST_P(CertificatesOfExtremes, OfMixedExtremesAreAccepted) {
   // 1e308 beside 5e-324 in every place, one after the other, and apart by more than all doubles.
   const Folder folder;
   std::size_t count = 0;
@@ -241,9 +244,9 @@ TEST_P(Certificates, OfMixedExtremesAreAccepted) {
   folder.expect_accepted(count);
 }
 
-INSTANTIATE_TEST_SUITE_P(, Certificates, testing::ValuesIn(all_pairs), [](const auto& pair) {
-  return std::string(pair_name(pair.param)).substr(std::string("cylinder-").size());
-});
+INSTANTIATE_TEST_SUITE_P(, Certificates, testing::ValuesIn(all_pairs), name_of_other);
+INSTANTIATE_TEST_SUITE_P(, CertificatesOfExtremes, testing::ValuesIn(pairs_of_sizes),
+                         name_of_other);
 
 }  // namespace
 }  // namespace touchstone

@@ -106,7 +106,7 @@ const supported = r => r.count - (r.outcomes.unsupported || 0);
 const unasked = r => r.outcomes['not-asked'] || 0;
 const agreeing = r => ((r.outcomes.agree || 0) + (r.outcomes.unseen || 0)) / supported(r);
 const agreement = r => (unasked(r) ? '≥ ' : '') + percent(agreeing(r));
-// " (4 of 5 pairs)" beside a candidate in a row over all pairs that is over these alone.
+// " (5 of 6 pairs)" beside a candidate in a row over all pairs that is over these alone.
 function coveredOf(summary, r) {
   if (!r || r.pair !== 'all') return '';
   const ofPairs = summary.filter(s => s.class === r.class && s.candidate === r.candidate && s.pair !== 'all');
