@@ -14,10 +14,9 @@
 
 #include <Eigen/Core>
 
-#include "oracle/critical_direction.hpp"
 #include "oracle/enclosure.hpp"
-#include "oracle/hull.hpp"
 #include "oracle/rounding.hpp"
+#include "oracle/survivors.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone::oracle {
@@ -51,49 +50,6 @@ constexpr int bits_beyond_width = 92;
 /// Normals closer than this are equal in double.
 constexpr double same_normal = 1e-14;
 
-struct Survivor {
-  std::unique_ptr<CriticalDirection> direction;
-  std::vector<DirectionBound> bounds;
-};
-
-/// Lower and upper bound of the largest gap, in units, if known.
-struct Maximum {
-  std::optional<Float> lo, hi;
-};
-
-/// Largest lower and upper ends over all bounds. A bound without a normal counts as an upper one
-/// only; one that is not finite leaves the upper end open.
-Maximum maximum(const std::vector<Survivor>& survivors) {
-  Maximum result;
-  bool open = false;
-  for (const auto& survivor : survivors) {
-    for (const auto& bound : survivor.bounds) {
-      if (!bound.gap.is_finite()) {
-        open = true;
-        continue;
-      }
-      Float hi = bound.gap.upper_end();
-      if (!result.hi || *result.hi < hi) result.hi = std::move(hi);
-      if (!bound.normal) continue;
-      Float lo = bound.gap.lower_end();
-      if (!result.lo || *result.lo < lo) result.lo = std::move(lo);
-    }
-  }
-  if (open) result.hi.reset();
-  return result;
-}
-
-/// Drops directions all of whose bounds lie below `limit`: they are not maxima and do not tie with
-/// one.
-void drop_below(std::vector<Survivor>& survivors, const Float& limit) {
-  std::erase_if(survivors, [&](Survivor& survivor) {
-    std::erase_if(survivor.bounds, [&](const DirectionBound& bound) {
-      return bound.gap.is_finite() && bound.gap.upper_end() < limit;
-    });
-    return survivor.bounds.empty();
-  });
-}
-
 /// Is it decided for every normal whether its gap is within `tie` of the largest?
 bool ties_are_decided(const std::vector<Survivor>& survivors, const Maximum& best,
                       const Float& tie) {
@@ -108,22 +64,6 @@ bool ties_are_decided(const std::vector<Survivor>& survivors, const Maximum& bes
   }
   // A single remaining normal is the largest, however wide its bound is.
   return undecided == 0 || reaching == 1;
-}
-
-/// Is the signed distance proven to be zero? Every gap that may reach zero must be proven not to
-/// exceed it, and at least one to be zero.
-bool is_exactly_zero(const std::vector<Survivor>& survivors, const Difference& difference) {
-  bool zero = false;
-  for (const auto& survivor : survivors) {
-    const bool may_reach_zero =
-        std::any_of(survivor.bounds.begin(), survivor.bounds.end(),
-                    [](const DirectionBound& bound) { return !bound.gap.is_negative(); });
-    if (!may_reach_zero) continue;
-    const ZeroGap gap = survivor.direction->zero_gap(difference);
-    if (gap == ZeroGap::unknown) return false;
-    zero = zero || gap == ZeroGap::zero;
-  }
-  return zero;
 }
 
 Vec3 in_world(const Difference& difference, const BallVector& n) {
@@ -264,42 +204,6 @@ void set_normals(const Difference& difference, const Shape& b, const BallDiffere
                                           : Ties::unique;
 }
 
-/// Appends all critical directions of one site.
-void append_directions(const Difference& difference, const CriticalSite& site,
-                       CriticalDirections& out) {
-  switch (site.kind) {
-    case CriticalSite::Kind::disc_axis:
-      return append_disc_axis(difference, site, out);
-    case CriticalSite::Kind::face:
-      return append_face(difference, site, out);
-    case CriticalSite::Kind::crossing:
-      return append_crossing(difference, site, out);
-    case CriticalSite::Kind::radial:
-      return append_radial(difference, site, out);
-    case CriticalSite::Kind::rim_vertex:
-      return append_rim_vertex(difference, site, out);
-    case CriticalSite::Kind::rim_line:
-      return append_rim_line(difference, site, out);
-    case CriticalSite::Kind::rim_rim:
-      return append_rim_rim(difference, site, out);
-  }
-}
-
-std::vector<Survivor> all_directions(const Difference& difference, double slack) {
-  CriticalDirections directions;
-  if (difference.is_plane) {
-    directions.push_back(single_direction(difference.plane_normal));
-  } else {
-    for (const auto& site : critical_sites(difference, slack)) {
-      append_directions(difference, site, directions);
-    }
-  }
-  std::vector<Survivor> survivors;
-  survivors.reserve(directions.size());
-  for (auto& direction : directions) survivors.push_back({std::move(direction), {}});
-  return survivors;
-}
-
 void check(const char* field, double value, bool good, const char* remedy) {
   if (!good) throw InvalidInput(field, std::to_string(value), remedy);
 }
@@ -323,13 +227,6 @@ Float error_in_units(const RoundedConfiguration& question, const Difference& dif
   return error == 0 ? Float() : Ball(error).upper_end();
 }
 
-Difference exact_difference(const Configuration& c) {
-  Difference difference = make_difference(c);
-  if (!difference.hull || has_exact_faces(*difference.hull)) return difference;
-  const Convex& body = difference.hull->body;
-  return make_difference({c.a, c.pose_a, convex_hull(body.vertices(), body.rounding()), c.pose_b});
-}
-
 /// None if the rounding of `question` leaves the answer open.
 std::optional<Truth> truth_of(const RoundedConfiguration& question, const Request& wanted) {
   Difference difference = exact_difference(question.configuration);
@@ -348,10 +245,7 @@ std::optional<Truth> truth_of(const RoundedConfiguration& question, const Reques
   for (long bits = initial_bits(wanted.width); bits <= last_bits; bits *= 2) {
     const WorkingPrecision precision(bits);
     const BallDifference balls(difference);
-    for (auto& survivor : survivors) {
-      survivor.bounds.clear();
-      survivor.direction->enclose(difference, balls, survivor.bounds);
-    }
+    enclose(survivors, difference, balls);
     const Maximum best = maximum(survivors);
     if (!best.lo) continue;
     drop_below(survivors, *best.lo - slack_in_units);
