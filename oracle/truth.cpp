@@ -14,6 +14,7 @@
 
 #include <Eigen/Core>
 
+#include "oracle/displacement.hpp"
 #include "oracle/enclosure.hpp"
 #include "oracle/rounding.hpp"
 #include "oracle/survivors.hpp"
@@ -215,7 +216,9 @@ int bits_of(double x) { return std::max(0, -std::ilogb(x)); }
 struct Request {
   const Configuration& configuration;
   double width, tie;
-  int resolution;  ///< bits kept by rounding (rounding.hpp)
+  int resolution = kept_bits;   ///< bits kept by rounding (rounding.hpp)
+  const Vec3* sweep = nullptr;  ///< of which A has gone the part `t`
+  mpq_class t = 0;
 };
 
 /// Bound of what rounding and bringing nearer change.
@@ -230,6 +233,7 @@ Float error_in_units(const RoundedConfiguration& question, const Difference& dif
 /// None if the rounding of `question` leaves the answer open.
 std::optional<Truth> truth_of(const RoundedConfiguration& question, const Request& wanted) {
   Difference difference = exact_difference(question.configuration);
+  if (wanted.sweep) move_a(difference, *wanted.sweep, wanted.t);
   const auto far = FarBodies::brought_nearer(difference, wanted.resolution);
   const double size = larger_size(wanted.configuration);
   const GridCell cell(size, wanted.width);
@@ -289,16 +293,27 @@ std::optional<Truth> truth_of(const RoundedConfiguration& question, const Reques
   throw std::logic_error("oracle: the signed distance could not be enclosed");
 }
 
-}  // namespace
-
-Truth truth(const Configuration& configuration, double width, double tie) {
+Truth answered(Request wanted) {
+  const double width = wanted.width, tie = wanted.tie;
   check("width", width, std::isfinite(width) && width > 0, "must be positive and finite");
   check("tie", tie, std::isfinite(tie) && tie >= 0, "must not be negative, and finite");
   const int min_bits = std::max(kept_bits, bits_of(width) + bits_beyond_width);
-  for (int bits = min_bits;; bits *= 2) {
-    const RoundedConfiguration question = rounded_configuration(configuration, bits);
-    if (auto answer = truth_of(question, {configuration, width, tie, bits})) return *answer;
+  for (wanted.resolution = min_bits;; wanted.resolution *= 2) {
+    const RoundedConfiguration question =
+        rounded_configuration(wanted.configuration, wanted.resolution);
+    if (auto answer = truth_of(question, wanted)) return *answer;
   }
+}
+
+}  // namespace
+
+Truth truth(const Configuration& configuration, double width, double tie) {
+  return answered({configuration, width, tie});
+}
+
+Truth truth_at(const Configuration& configuration, const Vec3& sweep, const mpq_class& t,
+               double width, double tie) {
+  return answered({configuration, width, tie, kept_bits, &sweep, t});
 }
 
 std::vector<std::string> libraries() {

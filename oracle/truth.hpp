@@ -75,6 +75,10 @@ struct Truth {
 /// Throws InvalidInput unless 0 < width; std::logic_error if its own bounds contradict each other.
 Truth truth(const Configuration& configuration, double width = 1e-30, double tie = 0);
 
+/// The same once A has moved by t times `sweep` (metres, world), exactly, which no double may hold.
+Truth truth_at(const Configuration& configuration, const Vec3& sweep, const mpq_class& t,
+               double width = 1e-30, double tie = 0);
+
 /// Encloses the gap g(n/|n|) of the exact configuration along a vector n of doubles, finite and not
 /// zero. The width is at most `width` times the larger size. A half-space has a finite gap only
 /// along its own normal, which no engine answers to the last bit. For a plane, g is therefore taken
