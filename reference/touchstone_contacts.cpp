@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string>
 
 #include "batch.hpp"
+#include "cast.hpp"
 #include "contact_of.hpp"
 #include "invalid_input.hpp"
 #include "single_precision.hpp"
@@ -74,6 +76,14 @@ void copy_contact(const Contact& from, ContactInC& to) {
 template <class Distance, class DistanceInC>
 void copy_distance(const Distance& from, DistanceInC& to) {
   to.value = from.value;
+  copy(from.normal, to.normal);
+}
+
+void copy_cast(const touchstone::Cast& from, touchstone_cast& to) {
+  constexpr touchstone_cast_status statuses[] = {TOUCHSTONE_CAST_TOUCH, TOUCHSTONE_CAST_NEVER,
+                                                 TOUCHSTONE_CAST_FROM_START};
+  to.status = statuses[static_cast<int>(from.status)];
+  to.fraction = from.fraction;
   copy(from.normal, to.normal);
 }
 
@@ -174,6 +184,29 @@ int touchstone_find_overlaps(const touchstone_body* a, const touchstone_pose* po
                              const touchstone_body* b, const touchstone_pose* poses_b, size_t count,
                              int* overlaps) {
   return find_overlaps(a, poses_a, b, poses_b, count, overlaps);
+}
+
+int touchstone_find_cast(const touchstone_body* a, const double sweep[3], const touchstone_body* b,
+                         touchstone_cast* result) {
+  return ask(a, b,
+             [&](const Configuration& c) { copy_cast(touchstone::cast(c, Vec3(sweep)), *result); });
+}
+
+int touchstone_find_casts(const touchstone_body* a, const touchstone_pose* poses_a,
+                          const double* sweeps, const touchstone_body* b,
+                          const touchstone_pose* poses_b, size_t count, touchstone_cast* casts) {
+  const bool are_finite =
+      std::all_of(sweeps, sweeps + 3 * count, [](double x) { return std::isfinite(x); });
+  if (!are_finite) return 1;
+  std::size_t next = 0;
+  return ask_batch<touchstone::Cast>(
+      a, poses_a, b, poses_b, count, casts,
+      [&](const auto& shape_a, auto of_a, const auto& shape_b, auto of_b, auto results) {
+        for (std::size_t i = 0; i < results.size(); ++i, ++next) {
+          results[i] = cast(shape_a, of_a[i], Vec3(sweeps + 3 * next), shape_b, of_b[i]);
+        }
+      },
+      copy_cast);
 }
 
 int touchstone_find_float_contacts(const touchstone_body* a, const touchstone_float_pose* poses_a,

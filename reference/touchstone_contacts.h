@@ -84,7 +84,28 @@ int touchstone_find_overlaps(const touchstone_body* a, const touchstone_pose* po
                              const touchstone_body* b, const touchstone_pose* poses_b, size_t count,
                              int* overlaps);
 
-/* The same for programs that keep poses in float. Answers are found in double, for the bodies as
+/* When A touches B first while it moves by `sweep` (metres, world); cast.hpp says how exactly. */
+
+typedef enum touchstone_cast_status {
+  TOUCHSTONE_CAST_TOUCH,     /* at `fraction` of the sweep */
+  TOUCHSTONE_CAST_NEVER,     /* `fraction` is 1 */
+  TOUCHSTONE_CAST_FROM_START /* `fraction` is 0 */
+} touchstone_cast_status;
+
+typedef struct touchstone_cast {
+  touchstone_cast_status status;
+  double fraction;
+  double normal[3];
+} touchstone_cast;
+
+int touchstone_find_cast(const touchstone_body* a, const double sweep[3], const touchstone_body* b,
+                         touchstone_cast* cast);
+/* Of many poses: sweeps[3 i] to sweeps[3 i + 2] are the i-th. */
+int touchstone_find_casts(const touchstone_body* a, const touchstone_pose* poses_a,
+                          const double* sweeps, const touchstone_body* b,
+                          const touchstone_pose* poses_b, size_t count, touchstone_cast* casts);
+
+/* Contacts for programs that keep poses in float. Answers are found in double, for the bodies as
  * they are given, and rounded (single_precision.hpp). */
 
 typedef struct touchstone_float_pose {

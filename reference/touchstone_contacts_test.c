@@ -103,6 +103,39 @@ static void test_batches(const touchstone_body* b) {
          "A must be a cylinder in a batch");
 }
 
+/* The can, 10 mm deep, starts 1.51 m higher and is let down by 3 m. */
+static void test_casts(const touchstone_body* b) {
+  const double down[3] = {0, 0, -3}, beyond[3] = {0, INFINITY, 0};
+  touchstone_body above = can;
+  above.position[2] += 1.51;
+  touchstone_cast cast = {TOUCHSTONE_CAST_NEVER, -1, {0, 0, 0}};
+  expect(touchstone_find_cast(&above, beyond, b, &cast) == 1 && cast.fraction == -1,
+         "a sweep without end, and nothing written");
+  expect(touchstone_find_cast(&above, down, b, &cast) == 0 &&
+             cast.status == TOUCHSTONE_CAST_TOUCH && near_to(cast.fraction, 0.5) &&
+             near_to(cast.normal[2], 1),
+         "it touches after 1.5 m");
+  expect(touchstone_find_cast(&can, down, b, &cast) == 0 &&
+             cast.status == TOUCHSTONE_CAST_FROM_START && cast.fraction == 0,
+         "it overlaps from the start");
+
+  const touchstone_pose one_b = {
+      {b->position[0], b->position[1], b->position[2]},
+      {b->orientation[0], b->orientation[1], b->orientation[2], b->orientation[3]}};
+  touchstone_pose poses_a[2], poses_b[2];
+  for (int i = 0; i < 2; ++i) {
+    poses_a[i] =
+        (touchstone_pose){{above.position[0], above.position[1], above.position[2]}, {1, 0, 0, 0}};
+    poses_b[i] = one_b;
+  }
+  const double sweeps[6] = {0, 0, -1, 0, 0, -6};
+  touchstone_cast casts[2];
+  expect(touchstone_find_casts(&above, poses_a, sweeps, b, poses_b, 2, casts) == 0, "two casts");
+  expect(casts[0].status == TOUCHSTONE_CAST_NEVER && casts[0].fraction == 1, "too short a sweep");
+  expect(casts[1].status == TOUCHSTONE_CAST_TOUCH && near_to(casts[1].fraction, 0.25),
+         "twice the sweep takes half the time");
+}
+
 int main(void) {
   touchstone_contact contact;
   double distance = 0, normal[3] = {0, 0, 0};
@@ -132,6 +165,7 @@ int main(void) {
     expect(touchstone_find_overlap(b, &can, &overlap) == (b->kind != TOUCHSTONE_CYLINDER),
            "A must be a cylinder");
     test_batches(b);
+    test_casts(b);
   }
   touchstone_body invalid = can;
   invalid.size[0] = 0;
