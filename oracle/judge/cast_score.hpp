@@ -1,0 +1,44 @@
+#pragma once
+
+#include <optional>
+
+#include "oracle/first_touch.hpp"
+#include "oracle/judge/score.hpp"
+#include "reference/cast.hpp"
+
+namespace touchstone {
+
+/// The configuration once A has gone the part t of its sweep, rounded to doubles.
+Configuration swept(const Configuration& configuration, const Sweep& sweep, double t);
+
+/// Judgement of one answered cast, named after the symptom.
+enum class CastOutcome {
+  agree,        ///< within the bar
+  late,         ///< passes through: the bodies overlap before the answered touch, or there
+  early,        ///< stops short: they are apart there
+  missed,       ///< no touch where A would overlap B
+  made_up,      ///< a touch where there is none, and the bodies are apart there
+  wrong_normal  ///< the touch is right, its normal is not
+};
+/// "agree", "late", "early", "missed", "made-up", "wrong-normal".
+const char* outcome_name(CastOutcome outcome);
+/// "touch", "never", "from-start".
+const char* status_name(CastStatus status);
+/// The same, and "undecided".
+const char* status_name(oracle::FirstTouch::Status status);
+
+/// A cast compared with the truth. Not by time, of which grazing bodies leave much open, but by
+/// what it comes to in distance.
+struct CastScore {
+  CastOutcome outcome = CastOutcome::agree;
+  /// Signed distance at the answered fraction, relative to error_size; negative: A went too far.
+  /// Of an answered never where A would touch, how deep it goes at most, likewise negative.
+  std::optional<double> distance;
+  /// σ − g(n) of the answered normal where the touch is right, likewise relative.
+  std::optional<double> normal_regret;
+};
+
+CastScore score_cast(const Configuration& configuration, const Sweep& sweep,
+                     const oracle::FirstTouch& truth, const Cast& answer, const Bar& bar);
+
+}  // namespace touchstone

@@ -1,0 +1,225 @@
+// How far a cylinder may move: known on paper, against the truth, and through thin bodies.
+//
+// TOUCHSTONE_COUNT sets how many random sweeps of each pair are held against the truth, by default
+// 200.
+#include "reference/cast.hpp"
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "oracle/first_touch.hpp"
+#include "oracle/hull.hpp"
+#include "oracle/judge/cast_score.hpp"
+#include "reference/invalid_input.hpp"
+#include "reference/random_bodies_test.hpp"
+#include "reference/random_casts_test.hpp"
+
+namespace touchstone {
+namespace {
+
+const Eigen::Quaterniond not_turned = Eigen::Quaterniond::Identity();
+
+/// A few roundings of a number of about one.
+constexpr double on_paper = 4e-15;
+
+TEST(Cast, ACanIsLetDownOntoEveryShape) {
+  // Of 1 m half length, from 5 m, by 4 m: each body reaches up to z = 1.
+  const Cylinder can(0.5, 1);
+  const Convex tip =
+      oracle::convex_hull(std::vector<Vec3>{{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}, {0, 0, 1}});
+  const Shape bodies[] = {Plane({0, 0, 2}, 2), Sphere(1),          Capsule(0.5, 0.5),
+                          Cylinder(2, 1),      Box({0.5, 0.5, 1}), tip};
+  for (const Shape& b : bodies) {
+    SCOPED_TRACE(shape_name(b));
+    const Cast found = cast(can, Pose({0, 0, 5}, not_turned), {0, 0, -4}, b, Pose());
+    EXPECT_EQ(found.status, CastStatus::touch);
+    EXPECT_NEAR(found.fraction, 0.75, on_paper);
+    EXPECT_NEAR(found.normal.z(), 1, on_paper);
+  }
+}
+
+TEST(Cast, ARimPassesASphereWithinTheSweepOrNot) {
+  // The rim's lowest point moves along x at the height 0.5 above the middle of a unit sphere.
+  const Cylinder coin(0.5, 0.25);
+  const auto found = [&](double length) {
+    return cast(coin, Pose({-5.5, 0, 0.75}, not_turned), {length, 0, 0}, Sphere(1), Pose());
+  };
+  const double until = 5 - std::sqrt(0.75);
+  EXPECT_EQ(found(8).status, CastStatus::touch);
+  EXPECT_NEAR(found(8).fraction, until / 8, on_paper);
+  EXPECT_NEAR(found(8).normal.x(), -std::sqrt(0.75), on_paper);
+  EXPECT_EQ(found(until - 1e-12).status, CastStatus::never);
+  EXPECT_EQ(found(until - 1e-12).fraction, 1);
+  EXPECT_EQ(found(-8).status, CastStatus::never);
+}
+
+TEST(Cast, FromInsideAndFromATouchNothingMoves) {
+  const Cylinder can(0.5, 1);
+  for (const double height : {0.0, 0.5, 1.5, 2.0}) {
+    const Cast found = cast(can, Pose({0, 0, height}, not_turned), {0, 0, 7}, Sphere(1), Pose());
+    EXPECT_EQ(found.status, CastStatus::from_start) << height;
+    EXPECT_EQ(found.fraction, 0);
+    EXPECT_NEAR(found.normal.norm(), 1, on_paper);
+  }
+}
+
+TEST(Cast, WithoutASweepApartStaysApart) {
+  const Cylinder can(0.5, 1);
+  const auto status = [&](double height) {
+    return cast(can, Pose({0, 0, height}, not_turned), Vec3::Zero(), Sphere(1), Pose()).status;
+  };
+  EXPECT_EQ(status(2), CastStatus::from_start);
+  EXPECT_EQ(status(2 + 1e-15), CastStatus::never);
+}
+
+TEST(Cast, ASweepMayEndInATouch) {
+  const Cylinder can(0.5, 1);
+  for (const double from : {3.0, 2.1, 2.3, 1e6}) {
+    const Cast found =
+        cast(can, Pose({0, 0, from}, not_turned), {0, 0, 2 - from}, Box({1, 1, 1}), Pose());
+    EXPECT_EQ(found.status, CastStatus::touch) << from;
+    EXPECT_NEAR(found.fraction, 1, on_paper) << from;
+  }
+}
+
+TEST(Cast, SlidesAlongAFloorWithoutTouchingIt) {
+  const Cylinder can(0.5, 1);
+  const Plane floor({0, 0, 1}, 0);
+  const auto status = [&](double height, double down) {
+    return cast(can, Pose({-3, 0, 1 + height}, not_turned), {6, 0, -down}, floor, Pose()).status;
+  };
+  EXPECT_EQ(status(0, 0), CastStatus::from_start);
+  EXPECT_EQ(status(1e-13, 0), CastStatus::never);
+  EXPECT_EQ(status(1e-9, 1e-8), CastStatus::touch);
+  EXPECT_EQ(status(1e-8, 1e-9), CastStatus::never);
+}
+
+TEST(Cast, NothingIsTooThinForAnyLengthOfSweep) {
+  // A coin's cap meets a coin, a needle and a sheet in the middle of the way.
+  const double thin = 1e-9;
+  const Cylinder coin(0.5, thin);
+  const Convex sheet = oracle::convex_hull(std::vector<Vec3>{{-1, -1, 0}, {1, -1, 0}, {0, 2, 0}});
+  const Shape bodies[] = {Cylinder(0.5, thin), Cylinder(thin, 3), Capsule(thin, 3),
+                          Sphere(thin),        Box({1, 1, thin}), sheet};
+  Random random(1);
+  for (const Shape& b : bodies) {
+    for (double length = 10; length <= 1e6; length *= 10) {
+      for (int i = 0; i < 20; ++i) {
+        // Both turned as they like, towards the other's middle and half as far again.
+        const Vec3 way = length * random.direction();
+        const Configuration c{coin, Pose(-way, random.turn()), b,
+                              Pose(Vec3::Zero(), random.turn())};
+        const Cast found = cast(c, 1.5 * way);
+        ASSERT_EQ(found.status, CastStatus::touch) << shape_name(b) << " from " << length;
+        const Configuration there = swept(c, Sweep(1.5 * way), found.fraction);
+        EXPECT_LE(std::abs(signed_distance(there).value), 1e-14 + 0x1p-51 * length);
+      }
+    }
+  }
+}
+
+TEST(Cast, GrazesWithinRounding) {
+  // A lying can passes above a sphere; by how much is lost at 1e-15 and told at 1e-12.
+  const Cylinder can(0.5, 1);
+  const Pose lying(Vec3::Zero(), Eigen::Quaterniond(1, 1, 0, 0));  // along -y
+  const auto found = [&](double above) {
+    return cast(can, Pose({-4, 0, 1.5 + above}, lying.orientation()), {9, 0, 0}, Sphere(1), Pose());
+  };
+  for (const double above : {1e-12, 1e-9, 1e-3}) {
+    EXPECT_EQ(found(above).status, CastStatus::never) << above;
+    const Cast below = found(-above);
+    EXPECT_EQ(below.status, CastStatus::touch) << above;
+    const Configuration c{can, Pose({-4, 0, 1.5 - above}, lying.orientation()), Sphere(1), Pose()};
+    const double left = signed_distance(swept(c, Sweep({9, 0, 0}), below.fraction)).value;
+    EXPECT_LE(std::abs(left), 1e-14) << above;
+  }
+  for (const double above : {0.0, 1e-15, -1e-15}) {
+    if (found(above).status == CastStatus::never) continue;
+    EXPECT_NEAR(found(above).fraction, 4.0 / 9, 1e-6) << above;
+  }
+}
+
+TEST(Cast, RefusesASweepThatIsNotFinite) {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  EXPECT_THROW(cast(Cylinder(1, 1), Pose(), {0, infinite, 0}, Sphere(1), Pose()), InvalidInput);
+  EXPECT_THROW(cast(Cylinder(1, 1), Pose(), {NAN, 0, 0}, Sphere(1), Pose()), InvalidInput);
+  EXPECT_THROW(Sweep({0, infinite, 0}), InvalidInput);
+  EXPECT_THROW(Sweep({0, 0, 0}, {NAN, 0, 0}), InvalidInput);
+}
+
+TEST(Cast, AnyFiniteNumbersAreAnswered) {
+  constexpr double huge = std::numeric_limits<double>::max();
+  constexpr double least = std::numeric_limits<double>::denorm_min();
+  const double numbers[] = {0, -1, 1e-300, -1e300, huge, -huge, least};
+  const Cylinder can(0.5, 1);
+  for (const double x : numbers) {
+    for (const double y : numbers) {
+      const Cast found = cast(can, Pose({x, y, 3}, not_turned), {y, -x, -4}, Box({1, 1, 1}),
+                              Pose({y, 0, x}, not_turned));
+      EXPECT_TRUE(found.fraction >= 0 && found.fraction <= 1) << x << ' ' << y;
+      EXPECT_TRUE(found.normal.allFinite()) << x << ' ' << y;
+    }
+  }
+  for (const double size : {1e-200, 1e200}) {
+    const Cast found = cast(Cylinder(size, size), Pose({0, 0, 5 * size}, not_turned),
+                            {0, 0, -4 * size}, Sphere(size), Pose());
+    EXPECT_EQ(found.status, CastStatus::touch);
+    EXPECT_NEAR(found.fraction, 0.75, on_paper);
+  }
+}
+
+TEST(Cast, OfABatchIsThatOfEachPair) {
+  Random random(2);
+  const Cylinder can(0.4, 0.9);
+  const Box box({0.3, 0.7, 1.1});
+  std::vector<Pose> poses_a, poses_b;
+  std::vector<Vec3> sweeps;
+  for (int i = 0; i < 40; ++i) {
+    poses_a.emplace_back(3 * random.direction(), random.turn());
+    poses_b.emplace_back(random.uniform(0, 1) * random.direction(), random.turn());
+    sweeps.push_back(6 * random.direction());
+  }
+  std::vector<Cast> results(40);
+  cast(can, poses_a, sweeps, box, poses_b, results);
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    const Cast one = cast(can, poses_a[i], sweeps[i], box, poses_b[i]);
+    EXPECT_EQ(results[i].status, one.status);
+    EXPECT_EQ(results[i].fraction, one.fraction);
+    EXPECT_EQ(results[i].normal, one.normal);
+  }
+  sweeps.pop_back();
+  EXPECT_THROW(cast(can, poses_a, sweeps, box, poses_b, results), InvalidInput);
+}
+
+class CastOf : public testing::TestWithParam<Pair> {};
+
+TEST_P(CastOf, RandomSweepsIsWithinRoundingOfTheTruth) {
+  Random random(static_cast<std::uint64_t>(GetParam()) + 3);
+  const std::uint64_t count = tried_of_each(200);
+  int touches = 0, nevers = 0;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    const auto [c, sweep] = random_sweep(GetParam(), random);
+    const Cast found = cast(c, sweep);
+    SCOPED_TRACE(testing::Message() << "sweep " << i << ", touch at " << found.fraction);
+    const Configuration there = swept(c, Sweep(sweep), found.fraction);
+    const double tolerance = distance_tolerance(there, sweep);
+    const oracle::FirstTouch truth = oracle::first_touch(c, Sweep(sweep));
+    const Bar bar{.tolerance = tolerance / smaller_size(c)};
+    const CastScore score = score_cast(c, Sweep(sweep), truth, found, bar);
+    EXPECT_EQ(score.outcome, CastOutcome::agree)
+        << outcome_name(score.outcome) << ' ' << score.distance.value_or(NAN) * error_size(c, bar)
+        << ' ' << score.normal_regret.value_or(NAN);
+    touches += truth.status == oracle::FirstTouch::Status::touch;
+    nevers += truth.status == oracle::FirstTouch::Status::never;
+  }
+  EXPECT_GT(touches, static_cast<int>(count / 10)) << "too few of the sweeps touch";
+  EXPECT_GT(nevers, static_cast<int>(count / 20)) << "too few of the sweeps miss";
+}
+
+INSTANTIATE_TEST_SUITE_P(Pairs, CastOf, testing::ValuesIn(known_pairs), name_of_other);
+
+}  // namespace
+}  // namespace touchstone
