@@ -8,6 +8,7 @@
 
 #include "properties/modifiers.hpp"
 #include "reference/configuration.hpp"
+#include "reference/sweep.hpp"
 
 namespace touchstone {
 
@@ -139,6 +140,7 @@ struct Subject {
   std::string description;  ///< of its pose class; empty without one
   Configuration configuration;
   std::string id = {};  ///< that the line in the file gives itself; empty for one without
+  std::optional<Sweep> sweep = {};  ///< of body A, where the line has one: a cast
 };
 Subject subject(const Identity& identity);
 

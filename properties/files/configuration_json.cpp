@@ -194,20 +194,52 @@ Pose pose_from_json(const json& value, const std::string& path) {
   return at_path(path, [&] { return Pose(position, orientation); });
 }
 
+namespace {
+
+/// Empty for a configuration at rest.
+std::optional<Sweep> sweep_from_json(const json& value) {
+  const auto given = [&](const char* name) {
+    return value.contains(name) ? vector(value[name], name) : Vec3(Vec3::Zero());
+  };
+  if (!value.contains("sweep") && !value.contains("spin")) return std::nullopt;
+  return Sweep(given("sweep"), given("spin"));
+}
+
+/// The sweep of body b, as a sees it, where a has it.
+std::optional<Sweep> seen_from_b(const std::optional<Sweep>& sweep, const json& value) {
+  if (!sweep) return sweep;
+  if (sweep->turns()) {
+    throw InvalidInput("spin", shown(value["spin"]),
+                       "must be left out where body a is no cylinder");
+  }
+  return Sweep(-sweep->translation());
+}
+
+}  // namespace
+
 GivenConfiguration configuration_from_json(const json& value) {
+  GivenConfiguration given = cast_from_json(value);
+  if (!given.sweep) return given;
+  const char* const name = value.contains("sweep") ? "sweep" : "spin";
+  throw InvalidInput(name, shown(value[name]),
+                     "must be left out: casts are known to solve and replay alone");
+}
+
+GivenConfiguration cast_from_json(const json& value) {
   require_object(value, "configuration");
-  refuse_others(value, {"id", "a", "pose_a", "b", "pose_b"}, "");
+  refuse_others(value, {"id", "a", "pose_a", "b", "pose_b", "sweep", "spin"}, "");
   const Shape a = shape_from_json(member(value, "a", ""), "a");
   const Shape b = shape_from_json(member(value, "b", ""), "b");
   const auto pose = [&](const char* name) {
     return value.contains(name) ? pose_from_json(value[name], name) : Pose();
   };
   const Pose pose_a = pose("pose_a"), pose_b = pose("pose_b");
+  const std::optional<Sweep> sweep = sweep_from_json(value);
   if (const auto* cylinder = std::get_if<Cylinder>(&a)) {
-    return {{*cylinder, pose_a, b, pose_b}, false};
+    return {{*cylinder, pose_a, b, pose_b}, false, sweep};
   }
   if (const auto* cylinder = std::get_if<Cylinder>(&b)) {
-    return {{*cylinder, pose_b, a, pose_a}, true};
+    return {{*cylinder, pose_b, a, pose_a}, true, seen_from_b(sweep, value)};
   }
   throw InvalidInput("a.shape", shown(value["a"]["shape"]),
                      "one of the two bodies must be a cylinder");
@@ -257,23 +289,41 @@ Subject subject_of(const std::string& text, const std::string& source,
   const json& line = chosen(lines, source, id);
   require_object(line, source);
   const bool is_wrapped = line.contains("configuration");
-  return {source, "",
-          configuration_from_json(is_wrapped ? line["configuration"] : line).configuration,
-          id_or_none(line)};
+  const GivenConfiguration given = cast_from_json(is_wrapped ? line["configuration"] : line);
+  return {source, "", given.configuration, id_or_none(line), given.sweep};
 }
 
 }  // namespace
 
 Configuration configuration_from_text(const std::string& text, const std::string& source) {
-  return subject_of(text, source, std::nullopt).configuration;
+  const Subject subject = subject_of(text, source, std::nullopt);
+  refuse_sweep(subject, source);
+  return subject.configuration;
 }
 
-json to_json(const Configuration& c) {
-  return write_configuration(c, [](double x) { return json(x); });
+namespace {
+
+json in_decimal(double x) { return x; }
+json in_hex(double x) { return fmt::format("{:a}", x); }
+
+json write_cast(const Configuration& c, const std::optional<Sweep>& sweep, const Write& write) {
+  json result = write_configuration(c, write);
+  if (!sweep) return result;
+  result["sweep"] = write_vector(sweep->translation(), write);
+  if (sweep->turns()) result["spin"] = write_vector(sweep->spin(), write);
+  return result;
 }
 
-json to_hex_json(const Configuration& c) {
-  return write_configuration(c, [](double x) { return json(fmt::format("{:a}", x)); });
+}  // namespace
+
+json to_json(const Configuration& c) { return write_configuration(c, in_decimal); }
+json to_json(const Configuration& c, const std::optional<Sweep>& sweep) {
+  return write_cast(c, sweep, in_decimal);
+}
+
+json to_hex_json(const Configuration& c) { return write_configuration(c, in_hex); }
+json to_hex_json(const Configuration& c, const std::optional<Sweep>& sweep) {
+  return write_cast(c, sweep, in_hex);
 }
 
 json to_exact_json(const Configuration& c) {
@@ -308,7 +358,8 @@ Subject named(const std::string& name, const std::optional<std::string>& id) {
   if (const auto at = name.rfind('@'); at != std::string::npos) {
     const Perturbation perturbation = parse_perturbation(name.substr(at + 1));
     const Subject base = given_configuration(name.substr(0, at), id);
-    return {name, base.description, perturbed(base.configuration, perturbation), base.id};
+    return {name, base.description, perturbed(base.configuration, perturbation), base.id,
+            base.sweep};
   }
   if (id && !is_meant_as_file(name)) {
     throw InvalidInput("--id", '"' + *id + '"', "must be of a line of a file");
@@ -330,6 +381,13 @@ Subject given_configuration(const std::string& input, const std::optional<std::s
     return subject_of(read_stream(std::cin, standard_input_name, "input"), standard_input_name, id);
   }
   return is_file(input) ? subject_of(read_file(input, "input"), input, id) : named(input, id);
+}
+
+void refuse_sweep(const Subject& subject, const std::string& asked) {
+  if (!subject.sweep) return;
+  const json given = to_json(subject.configuration, subject.sweep);
+  throw InvalidInput("sweep", shown(given["sweep"]),
+                     "must be left out: " + asked + " knows no casts");
 }
 
 }  // namespace touchstone

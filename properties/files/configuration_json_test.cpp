@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -176,6 +177,69 @@ TEST(ConfigurationJson, NamesTheFieldThatIsWrong) {
       EXPECT_EQ(e.field(), row.field);
     }
   }
+}
+
+TEST(ConfigurationJson, ACastHasASweepAndASpin) {
+  json line = box_configuration();
+  EXPECT_FALSE(cast_from_json(line).sweep);
+  line["sweep"] = {1, "0x1p-1", -3};
+  const auto given = cast_from_json(line);
+  ASSERT_TRUE(given.sweep);
+  EXPECT_EQ(given.sweep->translation(), Vec3(1, 0.5, -3));
+  EXPECT_FALSE(given.sweep->turns());
+  line["spin"] = {0, 0, 2};
+  const auto turning = cast_from_json(line);
+  EXPECT_EQ(turning.sweep->spin(), Vec3(0, 0, 2));
+  const json written = to_hex_json(turning.configuration, turning.sweep);
+  EXPECT_EQ(written["sweep"][1], "0x1p-1");
+  EXPECT_EQ(cast_from_json(written).sweep->spin(), Vec3(0, 0, 2));
+  EXPECT_EQ(to_json(given.configuration, std::nullopt), to_json(given.configuration));
+  line.erase("sweep");
+  EXPECT_EQ(cast_from_json(line).sweep->translation(), Vec3::Zero()) << "a turn in its place";
+}
+
+TEST(ConfigurationJson, OfTheOtherBodyASweepIsSeenFromTheCylinder) {
+  json line = box_configuration();
+  std::swap(line["a"], line["b"]);
+  std::swap(line["pose_a"], line["pose_b"]);
+  line["sweep"] = {1, 2, 3};
+  EXPECT_EQ(cast_from_json(line).sweep->translation(), Vec3(-1, -2, -3));
+}
+
+TEST(ConfigurationJson, SaysWhatIsWrongWithASweep) {
+  const struct {
+    const char* name;
+    const char* value;
+    const char* what;
+  } table[] = {
+      {"sweep", "[1,2]", "sweep is [1,2]: must be an array of 3 numbers"},
+      {"sweep", "[1,2,\"inf\"]", "sweep[2] is \"inf\": must be"},
+      {"sweep", "4", "sweep is 4: must be an array of 3 numbers"},
+      {"spin", "[0,null,0]", "spin[1] is null: must be"},
+  };
+  for (const auto& row : table) {
+    json line = box_configuration();
+    line[row.name] = json::parse(row.value);
+    try {
+      cast_from_json(line);
+      ADD_FAILURE() << "accepted: " << row.value;
+    } catch (const InvalidInput& e) {
+      EXPECT_EQ(std::string(e.what()).substr(0, std::string(row.what).size()), row.what);
+    }
+  }
+}
+
+TEST(ConfigurationJson, IsNoCastWhereNoneIsKnown) {
+  json line = box_configuration();
+  line["sweep"] = {1, 2, 3};
+  try {
+    configuration_from_json(line);
+    ADD_FAILURE() << "accepted";
+  } catch (const InvalidInput& e) {
+    EXPECT_EQ(e.field(), "sweep");
+    EXPECT_EQ(e.remedy(), "must be left out: casts are known to solve and replay alone");
+  }
+  EXPECT_THROW(configuration_from_text(line.dump(), "a file"), InvalidInput);
 }
 
 TEST(ConfigurationJson, AsksForACylinder) {

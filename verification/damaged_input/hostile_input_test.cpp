@@ -147,19 +147,22 @@ std::vector<std::string> configuration_lines() {
     lines.push_back(R"({"id":null,"a":{"shape":"cylinder","radius":1,"half_length":2},"pose_a":{)" +
                     std::string(way) + R"(},"b":{"shape":"sphere","radius":1}})");
   }
+  lines.push_back(R"({"a":{"shape":"sphere","radius":1},"sweep":[1,"0x1p-3",-2],)"
+                  R"("b":{"shape":"cylinder","radius":1,"half_length":2}})");
+  lines.push_back(R"({"a":{"shape":"cylinder","radius":1,"half_length":2},"sweep":[1,2,3],)"
+                  R"("spin":[1e-300,0,-0.5],"b":{"shape":"sphere","radius":1}})");
   return lines;
 }
 
 TEST(HostileInput, LinesOfSolve) {
   expect_answer_or_refusal(
       "solve", 34, configuration_lines(), [](const std::string& text, std::uint64_t) {
-        const auto given = configuration_from_json(parse_json(text, "line"));
+        const auto given = cast_from_json(parse_json(text, "line"));
         if (text.find('\0') != text.npos) throw std::runtime_error("a NUL is accepted");
-        for (const json& written :
-             {to_json(given.configuration), to_hex_json(given.configuration)}) {
-          const Configuration again =
-              configuration_from_json(parse_json(written.dump(), "it")).configuration;
-          if (to_hex_json(again) != to_hex_json(given.configuration)) {
+        const json all = to_hex_json(given.configuration, given.sweep);
+        for (const json& written : {to_json(given.configuration, given.sweep), all}) {
+          const auto again = cast_from_json(parse_json(written.dump(), "it"));
+          if (to_hex_json(again.configuration, again.sweep) != all) {
             throw std::runtime_error("what is written is read as something else");
           }
         }
