@@ -29,6 +29,11 @@ int run_replay(const ReplayArguments& options, bool emits) {
   const Bar bar = options.bar.get();
   const Subject given = given_configuration(
       options.input, options.id.empty() ? std::nullopt : std::optional(options.id));
+  for (const auto& [is_given, asked] :
+       {std::pair(options.certifies, "--certify"), std::pair(emits, "--emit"),
+        std::pair(!options.html.empty(), "--html")}) {
+    if (is_given) refuse_sweep(given, asked);
+  }
   if (options.certifies) {
     const Configuration& c = given.configuration;
     const audit::Certificate certificate =
@@ -49,9 +54,18 @@ int run_replay(const ReplayArguments& options, bool emits) {
   if (!options.html.empty()) {
     write_file(options.html, replay_page(shown, given.description), "--html");
   }
-  print(options.json ? replay_json(shown)
-                     : replay_text(shown, given.description, options.candidates.are_named(),
-                                   standard_output()));
+  std::optional<CastExamination> cast;
+  if (given.sweep) {
+    std::vector<std::string> names;
+    for (const auto& process : candidates) names.push_back(process.candidate().name);
+    cast = examine_cast(given.configuration, *given.sweep, names, bar);
+  }
+  if (options.json) {
+    print(replay_json(shown, cast));
+  } else {
+    print(replay_text(shown, given.description, options.candidates.are_named(), standard_output()) +
+          (cast ? '\n' + cast_text(*cast, standard_output()) : ""));
+  }
   return 0;
 }
 
@@ -99,6 +113,7 @@ void add_replay(Program& program) {
       "  touchstone replay cylinder-box/rim-face/1/0 --emit jolt > reproducer.mjs\n"
       "  touchstone replay cylinder-box/rim-face/1/0 --html page.html\n"
       "  touchstone replay poses.jsonl --id c1\n"
+      "  touchstone replay cast.jsonl   (a line with a sweep: when it touches first)\n"
       "  touchstone replay failures/ode-cylinder-box-agreement-missed.json --emit ode\n"
       "  touchstone replay cylinder-box/rim-face/1/0 --certify > proof.json\n"
       "  python3 oracle/check_certificate.py proof.json");

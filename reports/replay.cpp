@@ -24,8 +24,11 @@ using nlohmann::json;
 
 }  // namespace
 
-std::string replay_json(const Examination& examination) {
-  return to_json(examination).dump() + '\n';
+std::string replay_json(const Examination& examination,
+                        const std::optional<CastExamination>& cast) {
+  json result = to_json(examination);
+  if (cast) result["cast"] = to_json(*cast);
+  return result.dump() + '\n';
 }
 
 double nearest_to_middle(const oracle::Enclosure& e) {
@@ -154,13 +157,22 @@ std::string program_name(const std::vector<std::string>& candidates) {
   return std::accumulate(options.begin(), options.end(), std::string(started_as()));
 }
 
+namespace {
+
+std::string piped(const json& line, const std::vector<std::string>& candidates) {
+  return "echo '" + line.dump() + "' | " + program_name(candidates) + " replay -";
+}
+
+}  // namespace
+
 std::string replay_command(const std::string& name, const std::vector<std::string>& candidates) {
   return program_name(candidates) + " replay " + shell_quoted(name) + choice_of(candidates);
 }
 
 std::string replay_command(const Subject& subject, const std::vector<std::string>& candidates) {
   if (subject.name == standard_input_name) {
-    return replay_command(subject.configuration, candidates);
+    return piped(to_hex_json(subject.configuration, subject.sweep), candidates) +
+           choice_of(candidates);
   }
   return replay_command(subject.name, candidates) +
          (subject.id.empty() ? "" : " --id " + shell_quoted(subject.id));
@@ -168,8 +180,7 @@ std::string replay_command(const Subject& subject, const std::vector<std::string
 
 std::string piped_to_replay(const Configuration& configuration,
                             const std::vector<std::string>& candidates) {
-  return "echo '" + to_hex_json(configuration).dump() + "' | " + program_name(candidates) +
-         " replay -";
+  return piped(to_hex_json(configuration), candidates);
 }
 
 std::string replay_command(const Configuration& configuration,

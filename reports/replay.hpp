@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -12,6 +13,7 @@
 #include "oracle/judge/score.hpp"
 #include "properties/identity.hpp"
 #include "reports/campaign.hpp"
+#include "reports/examine_cast.hpp"
 #include "reports/report.hpp"
 #include "reports/terminal.hpp"
 
@@ -32,8 +34,9 @@ Examination examine(const Subject& subject, std::span<CandidateProcess* const> c
 std::string replay_text(const Examination& examination, const std::string& description,
                         bool in_full, const Terminal& terminal = {});
 
-/// One JSON object, as in a report's worst cases.
-std::string replay_json(const Examination& examination);
+/// One JSON object, as in a report's worst cases; of a cast with the member "cast", too.
+std::string replay_json(const Examination& examination,
+                        const std::optional<CastExamination>& cast = {});
 
 /// One self-contained page: both bodies in three dimensions and in a slice through the contact,
 /// with the contact points and normals of truth and candidates, and all numbers. Nothing is loaded

@@ -28,7 +28,7 @@ docs = source / "docs"
 
 # Members that may be absent.
 OPTIONAL = {"reason", "audit", "given", "stability", "experiments", "engines", "amplification", "maps", "sequences",
-            "digest", "id"}
+            "digest", "id", "cast", "there"}
 # Objects whose members are names or numbers.
 MAPS = {"answers", "outcomes", "points", "details", "letters"}
 
@@ -173,13 +173,17 @@ class Schema(unittest.TestCase):
             {"id": 3, "a": {"shape": "sphere", "radius": 1}, "b": cylinder},  # a circle of normals
             {"id": None, "a": cylinder, "pose_a": pose(0, 0, 9),
              "b": {"shape": "capsule", "radius": 1, "half_length": 2}},
+            {"id": "cast", "a": cylinder, "pose_a": pose(0, 0, 9), "b": {"shape": "sphere", "radius": 1},
+             "sweep": [0, 0, -9]},
             {"id": "wrong", "a": {"shape": "cylinder", "radius": -1, "half_length": 1}, "b": cylinder},
             {"a": cylinder},
         ]
         for options in ([], ["--audit"]):
             answers = self.run_program("solve", *options, codes=(2,), input="\n".join(map(json.dumps, lines)) + "\n")
             answers = [json.loads(line) for line in answers.splitlines()]
-            self.assertEqual(["error" in a for a in answers], [False] * 4 + [True] * 2)
+            self.assertEqual(["error" in a for a in answers], [False] * 5 + [True] * 2)
+            self.assertEqual([a.get("cast", {}).get("truth", {}).get("status") for a in answers],
+                             [None] * 4 + ["touch"] + [None] * 2)
             self.assertEqual(answers[2]["truth"]["ties"], "continuum")
             self.assertIn("box reference agree", self.run_example("your-poses.md", {"answers.jsonl": [answers[0]]}))
             for answer in answers:

@@ -19,6 +19,7 @@
 #include "properties/files/given_text.hpp"
 #include "properties/files/strict_json.hpp"
 #include "reference/invalid_input.hpp"
+#include "reports/examine_cast.hpp"
 #include "reports/test_data/test_data.hpp"
 
 namespace touchstone {
@@ -108,9 +109,14 @@ struct SolvedLine {
 SolvedLine solved(const json& line, const SolveOptions& options,
                   std::vector<CandidateProcess>& candidates) {
   if (line.contains("id")) id_of(line);  // has to be one
-  const auto [c, swapped] =
-      configuration_from_json(line.contains("configuration") ? line["configuration"] : line);
-  const Order order = swapped ? Order::swapped : Order::as_ours;
+  const GivenConfiguration given =
+      cast_from_json(line.contains("configuration") ? line["configuration"] : line);
+  const Configuration& c = given.configuration;
+  const Order order = given.swapped ? Order::swapped : Order::as_ours;
+  if (given.sweep && options.csv) {
+    throw InvalidInput("sweep", "given",
+                       "must be left out beside --csv, which has no columns for it");
+  }
   const oracle::Truth truth = oracle::truth(c, options.width);
   json result;
   if (line.contains("id")) result["id"] = line["id"];
@@ -125,6 +131,11 @@ SolvedLine solved(const json& line, const SolveOptions& options,
     const Answer a = process.answer(c);
     result["answers"][process.candidate().name] =
         to_json(a, score(c, truth, a, options.bar), order);
+  }
+  if (given.sweep) {
+    std::vector<std::string> names;
+    for (const Candidate* candidate : options.candidates) names.push_back(candidate->name);
+    result["cast"] = touchstone::to_json(examine_cast(c, *given.sweep, names, options.bar), order);
   }
   return {result, truth.signed_distance};
 }

@@ -75,6 +75,19 @@ expect 2 '^error: .*/bad.jsonl: line 2 is no JSON' replay "$folder/bad.jsonl" --
 sed 's/"one"/"one\\\\"/' "$folder/line.jsonl" >"$folder/backslash.jsonl"
 expect 0 '^// Asked .*, id one\\\.$' replay "$folder/backslash.jsonl" --emit ode
 
+# A cast: when it touches first; what knows no casts says so.
+echo '{"id":"c","a":{"shape":"cylinder","radius":0.5,"half_length":1},"pose_a":{"position":[0,0,5]},"b":{"shape":"sphere","radius":1},"sweep":[0,0,-9]}' \
+  >"$folder/cast.jsonl"
+expect 0 'cast: A touches B first when it has gone 0.3333' replay "$folder/cast.jsonl"
+also '^ *agree  *touch  *0.3333' '"sweep":\[0.0,0.0,-9.0\]'
+expect 0 '"cast":{"answers":{"reference":{"fraction":0.3333' replay "$folder/cast.jsonl" --json
+for way in --certify "--emit bullet" "--html $folder/cast.html"; do
+  # shellcheck disable=SC2086
+  expect 2 "^error: sweep is \[0.0,0.0,-9.0\]: must be left out: ${way%% *} knows no casts" replay "$folder/cast.jsonl" $way
+done
+expect 2 '^error: sweep is .*must be left out: stability knows no casts' stability "$folder/cast.jsonl"
+expect 2 'sweep\[1\] is \[\]: must be' replay <(sed 's/\[0,0,-9\]/[0,[],1]/' "$folder/cast.jsonl")
+
 # Programs.
 expect 0 '#include <BulletCollision' replay $rim --emit bullet
 expect 0 'btSphereShape shape_b' replay "$folder/saved.json" --emit bullet

@@ -1,0 +1,127 @@
+#include "reports/examine_cast.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "properties/files/configuration_json.hpp"
+#include "properties/files/strict_json.hpp"
+
+namespace touchstone {
+namespace {
+
+using nlohmann::json;
+
+/// The configuration at the touch, in the person's frame: of a person whose body a is our B, that
+/// body has moved the other way.
+Configuration at_the_touch(const CastExamination& cast, Order order) {
+  const Configuration& c = cast.configuration;
+  const double t = cast.truth.fraction.hi.get_d();
+  if (order == Order::as_ours) return swept(c, cast.sweep, t);
+  return {c.a, c.pose_a, c.b, Sweep(-cast.sweep.translation()).moved(c.pose_b, t)};
+}
+
+json score_json(const CastScore& score) {
+  return {{"outcome", outcome_name(score.outcome)},
+          {"distance", or_null(score.distance)},
+          {"normal_regret", or_null(score.normal_regret)}};
+}
+
+/// The answer in a few words: "touch", "never", "from-start".
+std::string answer_word(const ScoredCast& scored) { return status_name(scored.answer.status); }
+
+std::string few_digits(const std::optional<double>& x) {
+  return x && std::isfinite(*x) ? fmt::format("{:.3g}", *x) : "-";
+}
+
+/// What is proven, in a sentence.
+std::string truth_sentence(const CastExamination& cast) {
+  using Status = oracle::FirstTouch::Status;
+  const auto [low, high] = decimals(cast.truth.fraction);
+  switch (cast.truth.status) {
+    case Status::touch:
+      return fmt::format("A touches B first when it has gone {} of its sweep", high);
+    case Status::never:
+      return "A touches B never in its sweep";
+    case Status::from_start:
+      return "A touches B before it moves";
+    case Status::undecided:
+      break;
+  }
+  return fmt::format(
+      "A does not touch B before it has gone {} of its sweep; no proof tells "
+      "whether it does between that and {}",
+      low, high);
+}
+
+std::string normal_sentence(const CastExamination& cast) {
+  if (!cast.truth.there || cast.truth.there->normals.empty()) return "";
+  const oracle::OptimalNormal& normal = cast.truth.there->normals.front();
+  const auto patch = oracle::contact_patch(at_the_touch(cast, Order::as_ours), normal);
+  return fmt::format("; there: normal ({:.6g}, {:.6g}, {:.6g}), ties: {}; contact patch: {}",
+                     normal.n.x(), normal.n.y(), normal.n.z(), ties_name(cast.truth.there->ties),
+                     patch_kind_name(patch.kind()));
+}
+
+}  // namespace
+
+CastExamination examine_cast(const Configuration& c, const Sweep& sweep,
+                             const std::vector<std::string>& candidates, const Bar& bar) {
+  CastExamination result{c, sweep, oracle::first_touch(c, sweep), {}};
+  const bool is_asked =
+      std::find(candidates.begin(), candidates.end(), "reference") != candidates.end();
+  if (!is_asked || sweep.turns()) return result;
+  const Cast answer = cast(c, sweep.translation());
+  result.answers.push_back({"reference", answer, score_cast(c, sweep, result.truth, answer, bar)});
+  return result;
+}
+
+json to_json(const CastExamination& cast, Order order) {
+  json truth = {{"status", status_name(cast.truth.status)},
+                {"fraction", decimals(cast.truth.fraction)}};
+  if (cast.truth.there) {
+    truth["there"] = to_json(at_the_touch(cast, order), *cast.truth.there, order);
+  }
+  json answers = json::object();
+  for (const auto& [candidate, answer, score] : cast.answers) {
+    const double sign = order == Order::swapped ? -1 : 1;
+    answers[candidate] = {{"status", status_name(answer.status)},
+                          {"fraction", answer.fraction},
+                          {"normal", to_json(Vec3(sign * answer.normal))},
+                          {"score", score_json(score)}};
+  }
+  return {{"truth", std::move(truth)}, {"answers", std::move(answers)}};
+}
+
+std::string cast_text(const CastExamination& cast, const Terminal& terminal) {
+  std::string text = terminal.folded("cast: " + truth_sentence(cast) + normal_sentence(cast) + '.');
+  if (!cast.answers.empty()) {
+    const TextTable table("candidate", 0,
+                          {{"outcome", 15, 0},
+                           {"answer", 10, 1},
+                           {"fraction", 10, 2},
+                           {"left", 9, 3},
+                           {"regret", 8, 4}},
+                          terminal);
+    text += table.headings();
+    for (const ScoredCast& scored : cast.answers) {
+      const bool is_right = scored.score.outcome == CastOutcome::agree;
+      text += table.row(shown_name(scored.candidate),
+                        {{outcome_name(scored.score.outcome), !is_right},
+                         {answer_word(scored)},
+                         {fmt::format("{:.4g}", scored.answer.fraction)},
+                         {few_digits(scored.score.distance)},
+                         {few_digits(scored.score.normal_regret)}},
+                        is_right);
+    }
+    text += Legend(table, terminal)
+                .of("left", "signed distance there, relative to the smaller size, as is regret")
+                .text();
+  }
+  return text + terminal.folded("the cast, a line for touchstone solve:") +
+         to_json(cast.configuration, cast.sweep).dump() + '\n';
+}
+
+}  // namespace touchstone

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "oracle/judge/cast_score.hpp"
+#include "properties/files/answer_json.hpp"
+#include "properties/identity.hpp"
+#include "reference/sweep.hpp"
+#include "reports/terminal.hpp"
+
+namespace touchstone {
+
+/// A candidate's answer to a cast.
+struct ScoredCast {
+  std::string candidate;
+  Cast answer;
+  CastScore score;
+};
+
+/// One cast: its truth, and the answers of those candidates that have casts.
+struct CastExamination {
+  Configuration configuration;
+  Sweep sweep;
+  oracle::FirstTouch truth;
+  std::vector<ScoredCast> answers;
+};
+
+/// Of the candidates named, our own routine has casts, of bodies that do not turn.
+CastExamination examine_cast(const Configuration& configuration, const Sweep& sweep,
+                             const std::vector<std::string>& candidates, const Bar& bar);
+
+/// {"truth": {"status", "fraction": [lo, hi], "there": as `truth` of solve, of a touch and from the
+/// start}, "answers": {candidate: {"status", "fraction", "normal", "score": {…}}}}.
+nlohmann::json to_json(const CastExamination& cast, Order order = Order::as_ours);
+
+/// A line on the truth, a table of the answers, and the cast as a line for solve.
+std::string cast_text(const CastExamination& cast, const Terminal& terminal = {});
+
+}  // namespace touchstone
