@@ -4,6 +4,7 @@
 #include <pybind11/eigen.h>
 #include <pybind11/stl.h>
 
+#include "oracle/judge/cast_score.hpp"
 #include "python/parameters.hpp"
 #include "reference/invalid_input.hpp"
 #include "reference/touchstone.hpp"
@@ -142,6 +143,58 @@ py::object signed_distance_of(const Cylinder& a, py::handle pose_a, py::handle b
   return py::make_tuple(values, normals);
 }
 
+/// One sweep, or one a row.
+struct Sweeps {
+  explicit Sweeps(py::handle value) {
+    py::detail::make_caster<Numbers<Vec3>> one;
+    py::detail::make_caster<Numbers<Points>> many;
+    if (one.load(value, true)) {
+      rows = py::detail::cast_op<const Numbers<Vec3>&>(one).vector.transpose();
+    } else if (many.load(value, true)) {
+      rows = py::detail::cast_op<const Numbers<Points>&>(many).vector;
+      is_batch = true;
+    } else {
+      throw py::type_error("sweep is " + shown(value) +
+                           ": must be three numbers, or rows of three, none of them masked");
+    }
+  }
+  Vec3 operator[](std::size_t i) const {
+    return rows.row(is_batch ? static_cast<Eigen::Index>(i) : 0).transpose();
+  }
+
+  Points rows;
+  bool is_batch = false;
+};
+
+py::object cast_of(const Cylinder& a, py::handle pose_a, py::handle sweep, py::handle b,
+                   py::handle pose_b) {
+  const Sweeps sweeps(sweep);
+  const PosedBodies bodies = posed_bodies(a, pose_a, b, pose_b);
+  const auto of_row = [&](std::size_t i) {
+    return cast(bodies.configurations[bodies.is_batch ? i : 0], sweeps[i]);
+  };
+  if (!bodies.is_batch && !sweeps.is_batch) {
+    const Cast found = of_row(0);
+    return py::make_tuple(status_name(found.status), found.fraction,
+                          vector_to_python(found.normal));
+  }
+  const auto rows = static_cast<std::size_t>(sweeps.rows.rows());
+  const std::size_t count = bodies.is_batch ? bodies.configurations.size() : rows;
+  if (sweeps.is_batch && rows != count) {
+    throw InvalidInput("sweep", "an array of " + std::to_string(rows) + " rows",
+                       "must have as many as the poses, " + std::to_string(count));
+  }
+  py::list statuses;
+  py::array_t<double> fractions(shape(count)), normals(shape(count, 3));
+  for (std::size_t i = 0; i < count; ++i) {
+    const Cast found = of_row(i);
+    statuses.append(status_name(found.status));
+    fractions.mutable_data()[i] = found.fraction;
+    Eigen::Map<Vec3>(normals.mutable_data() + 3 * i) = found.normal;
+  }
+  return py::make_tuple(statuses, fractions, normals);
+}
+
 /// The contacts of a batch, as arrays.
 struct Contacts {
   explicit Contacts(std::size_t n)
@@ -245,6 +298,19 @@ shapes (n,) and (n, 3). Within 1e-13 of the larger size of the truth.
 (1.0, array([0., 0., 1.]))
 )",
          py::arg("a"), py::arg("pose_a"), py::arg("b"), py::arg("pose_b"));
+  define(m, "cast", &cast_of, R"(cast(a, pose_a, sweep, b, pose_b)
+
+Returns when `a` touches `b` first while it moves by `sweep` (metres, world frame).
+
+Bodies and poses as in `overlaps`; a sweep is three numbers, or rows of three. For one, a status
+("touch", "never" or "from-start"), the fraction of the sweep up to which `a` moves freely, and the
+normal there; else a list and arrays of the shapes (n,) and (n, 3).
+
+>>> touchstone.cast(touchstone.Cylinder(0.5, 1), touchstone.Pose((0, 0, 5)), (0, 0, -4),
+...                 touchstone.Sphere(1), touchstone.Pose())
+('touch', 0.75, array([0., 0., 1.]))
+)",
+         py::arg("a"), py::arg("pose_a"), py::arg("sweep"), py::arg("b"), py::arg("pose_b"));
   define(m, "contact", &contact_of, R"(contact(a, pose_a, b, pose_b, threshold=0.0)
 
 Returns signed distance, normal and contact points where the distance is at most `threshold` metres.

@@ -4,6 +4,8 @@
 #include <limits>
 #include <pybind11/stl.h>
 
+#include "oracle/first_touch.hpp"
+#include "oracle/judge/cast_score.hpp"
 #include "oracle/patch/contact_patch.hpp"
 #include "properties/files/answer_json.hpp"
 #include "python/parameters.hpp"
@@ -42,6 +44,24 @@ py::object truth_of(const Cylinder& a, py::handle pose_a, py::handle b, py::hand
     all.append(KnownTruth{c, oracle::truth(c, width)});
   }
   return is_batch ? py::object(all) : py::object(all[0]);
+}
+
+/// The first touch of a sweep, with the truth there.
+struct KnownTouch {
+  oracle::FirstTouch touch;
+  std::optional<KnownTruth> truth;
+};
+
+KnownTouch first_touch_of(const Cylinder& a, const Pose& pose_a, const Numbers<Vec3>& sweep,
+                          py::handle b, const Pose& pose_b, const Numbers<Vec3>& spin,
+                          double width) {
+  const Configuration c{a, pose_a, shape_from_python("b", b), pose_b};
+  const Sweep motion(sweep, spin);
+  KnownTouch known{oracle::first_touch(c, motion, width), {}};
+  if (known.touch.there) {
+    known.truth = {swept(c, motion, known.touch.fraction.hi.get_d()), *known.touch.there};
+  }
+  return known;
 }
 
 py::array normals_of(const KnownTruth& t) {
@@ -122,6 +142,46 @@ half extent, and zero lies within it only if the bodies touch. Each takes about 
 )",
          py::arg("a"), py::arg("pose_a"), py::arg("b"), py::arg("pose_b"),
          py::arg("width") = 1e-15);
+
+  py::class_<KnownTouch> touch(m, "FirstTouch",
+                               "What is true of a moving body: `first_touch` gives it.");
+  touch.def_property_readonly(
+      "status", [](const KnownTouch& t) { return status_name(t.touch.status); },
+      "\"touch\", \"never\", \"from-start\"; \"undecided\" where no proof tells a graze from a "
+      "miss.");
+  touch.def_property_readonly(
+      "lower", [](const KnownTouch& t) { return fraction(t.touch.fraction.lo); },
+      "A fractions.Fraction of the sweep before which nothing touches.");
+  touch.def_property_readonly(
+      "upper", [](const KnownTouch& t) { return fraction(t.touch.fraction.hi); },
+      "A fractions.Fraction at which the bodies are proven to touch or overlap.");
+  touch.def_property_readonly(
+      "fraction", [](const KnownTouch& t) { return middle(t.touch.fraction); },
+      "The float nearest to the middle of both.");
+  touch.def_property_readonly(
+      "truth", [](const KnownTouch& t) { return t.truth; },
+      "The Truth of the pose at `upper`; None unless the bodies touch.");
+  touch.def("__repr__", [](const KnownTouch& t) {
+    const auto [low, high] = decimals(t.touch.fraction);
+    return std::string("<touchstone.FirstTouch: ") + status_name(t.touch.status) + ", from " + low +
+           " to " + high + ">";
+  });
+
+  define(m, "first_touch", &first_touch_of,
+         R"(first_touch(a, pose_a, sweep, b, pose_b, spin=(0.0, 0.0, 0.0), width=1e-20)
+
+Returns when `a` touches `b` first while it moves by `sweep` (metres), proven.
+
+`spin` turns it meanwhile about its centre, by as many radians as it is long, in the world frame.
+Without it, the enclosure of the fraction is no wider than `width`.
+
+>>> t = touchstone.first_touch(touchstone.Cylinder(0.5, 1), touchstone.Pose((0, 0, 5)), (0, 0, -9),
+...                            touchstone.Sphere(1), touchstone.Pose())
+>>> t.status, t.upper, t.truth.normals
+('touch', Fraction(1, 3), array([[0., 0., 1.]]))
+)",
+         py::arg("a"), py::arg("pose_a"), py::arg("sweep"), py::arg("b"), py::arg("pose_b"),
+         py::arg("spin") = py::make_tuple(0.0, 0.0, 0.0), py::arg("width") = 1e-20);
 }
 
 }  // namespace touchstone::python

@@ -284,6 +284,54 @@ class Batches(unittest.TestCase):
         self.assertGreater(seen[0][1], seen[0][0] + 1)  # one: the lock is given up on the way in
 
 
+class ACast(unittest.TestCase):
+    """A can of 1 m half length is let down onto a unit sphere from 5 m: it touches after 3 m."""
+
+    def setUp(self):
+        self.can, self.above, self.ball = Cylinder(0.5, 1), Pose((0, 0, 5)), Sphere(1)
+
+    def test_touches_never_or_from_the_start(self):
+        def cast(height, down):
+            return touchstone.cast(self.can, Pose((0, 0, height)), (0, 0, -down), self.ball, Pose())
+        status, fraction, normal = cast(5, 4)
+        self.assertEqual((status, fraction, tuple(normal)), ("touch", 0.75, (0, 0, 1)))
+        self.assertEqual(cast(5, 2.5)[:2], ("never", 1))
+        self.assertEqual(cast(1.5, 2)[:2], ("from-start", 0))
+
+    def test_a_batch_is_single_casts(self):
+        poses = numpy.array([[0, 0, 5, 1, 0, 0, 0], [0, 0, 3, 1, 0, 0, 0]], dtype=float)
+        sweeps = numpy.array([[0, 0, -4], [0, 0, -0.5]])
+        statuses, fractions, normals = touchstone.cast(self.can, poses, sweeps, self.ball, Pose())
+        self.assertEqual(statuses, ["touch", "never"])
+        self.assertEqual(list(fractions), [0.75, 1])
+        self.assertEqual(normals.shape, (2, 3))
+        with self.assertRaisesRegex(ValueError, "sweep is an array of 1 rows: must have as many"):
+            touchstone.cast(self.can, poses, sweeps[:1], self.ball, Pose())
+
+    def test_what_is_no_sweep_is_refused(self):
+        for sweep in ("down", (1, 2), numpy.zeros((2, 2))):
+            with self.assertRaisesRegex(TypeError, "sweep is .*must be three numbers"):
+                touchstone.cast(self.can, self.above, sweep, self.ball, Pose())
+        with self.assertRaisesRegex(ValueError, "sweep is not finite"):
+            touchstone.cast(self.can, self.above, (0, 0, numpy.inf), self.ball, Pose())
+
+    def test_the_first_touch_is_proven(self):
+        touch = touchstone.first_touch(self.can, self.above, (0, 0, -9), self.ball, Pose())
+        self.assertEqual(touch.status, "touch")
+        self.assertTrue(touch.lower <= Fraction(1, 3) <= touch.upper)
+        self.assertLessEqual(touch.upper - touch.lower, Fraction(1e-20))
+        self.assertEqual(touch.truth.normals.tolist(), [[0, 0, 1]])
+        away = touchstone.first_touch(self.can, self.above, (0, 0, 9), self.ball, Pose())
+        self.assertEqual((away.status, away.fraction, away.truth), ("never", 1, None))
+
+    def test_a_body_that_tips_over_touches_on_its_way(self):
+        near = touchstone.first_touch(self.can, Pose((0, 0, 1.1)), (0, 0, 0),
+                                      touchstone.Plane((0, 0, 1), 0), Pose(), spin=(1.5, 0, 0))
+        self.assertEqual(near.status, "touch")
+        angle = math.asin(1.1 / math.sqrt(1.25)) - math.atan(2)
+        self.assertAlmostEqual(near.fraction, angle / 1.5, places=11)
+
+
 class TheTruth(unittest.TestCase):
     def test_a_rational_distance_is_enclosed(self):
         for width in (1e-3, 1e-15, 1e-60):

@@ -21,11 +21,11 @@ except ImportError as reason:
 del numpy
 
 from ._touchstone import (PAIRS, Box, Capsule, Configuration, Contact, Contacts, Convex, Cylinder,
-                          Patch, Plane, Point, Pose, Report, Score, Sphere, Truth, __version__,
-                          classes, configurations, contact, overlaps, report, score, scores,
-                          signed_distance, truth)
+                          FirstTouch, Patch, Plane, Point, Pose, Report, Score, Sphere, Truth,
+                          __version__, cast, classes, configurations, contact, first_touch,
+                          overlaps, report, score, scores, signed_distance, truth)
 
 __all__ = ["PAIRS", "Box", "Capsule", "Configuration", "Contact", "Contacts", "Convex", "Cylinder",
-           "Patch", "Plane", "Point", "Pose", "Report", "Score", "Sphere", "Truth", "classes",
-           "configurations", "contact", "overlaps", "report", "score", "scores",
-           "signed_distance", "truth"]
+           "FirstTouch", "Patch", "Plane", "Point", "Pose", "Report", "Score", "Sphere", "Truth",
+           "cast", "classes", "configurations", "contact", "first_touch", "overlaps", "report",
+           "score", "scores", "signed_distance", "truth"]
