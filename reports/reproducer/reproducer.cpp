@@ -15,78 +15,16 @@
 #include "properties/numbers.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/replay.hpp"
+#include "reports/reproducer/fill_template.hpp"
+#include "reports/reproducer/programs.hpp"
 #include "reports/reproducer/texts.hpp"
 
 namespace touchstone {
 
-// Made by the build from the files NAME.in of candidates/reproducers, and npm's package.json.
-extern const std::string_view head_template, cpp_template, javascript_template, python_template;
-extern const std::string_view bullet_template, ode_template, fcl_template, libccd_template,
-    mujoco_template;
-extern const std::string_view jolt_mjs_template, jolt_doctest_template, rapier_mjs_template,
-    physx_mjs_template, havok_mjs_template, mujoco3_mjs_template, mujoco3_py_template,
-    mjcf_template;
-extern const std::string_view plugin_template, command_py_template;
-extern const std::string_view package_json;
+// Made by the build, as those of programs.cpp.
+extern const std::string_view head_template, mjcf_template, plugin_template, command_py_template;
 
 namespace {
-
-// The programs.
-
-struct Language {
-  std::string_view name;    ///< for --language
-  std::string_view remark;  ///< begins one
-  const std::string_view& shared;
-  NumberStyle numbers;
-};
-const Language cpp = {"c++", "//", cpp_template, NumberStyle::hexadecimal};
-const Language javascript = {"javascript", "//", javascript_template, NumberStyle::decimal};
-const Language python = {"python", "#", python_template, NumberStyle::decimal};
-
-/// A program that asks an engine.
-struct Program {
-  std::string_view engine;     ///< name for --emit, without parameter
-  std::string_view candidate;  ///< gives the answers that it repeats
-  std::string_view title;
-  const Language& language;
-  const std::string_view& source;
-  std::string_view tags;  ///< for its lines, with commas
-  bool plane = true;      ///< it has a routine for the half-space
-};
-
-/// Those that need nothing of ours. The first of an engine is the usual one.
-const std::array programs = {
-    Program{"bullet", "bullet", "Bullet", cpp, bullet_template, "double,rounded"},
-    Program{"bullet-margin-0", "bullet-margin-0", "Bullet", cpp, bullet_template, "double,sharp"},
-    Program{"bullet-float", "bullet-float", "Bullet", cpp, bullet_template, "float,rounded"},
-    Program{"bullet-float-margin-0", "bullet-float-margin-0", "Bullet", cpp, bullet_template,
-            "float,sharp"},
-    Program{"ode", "ode", "ODE", cpp, ode_template, ""},
-    Program{"fcl", "fcl", "FCL", cpp, fcl_template, "collide"},
-    Program{"fcl-indep", "fcl-indep", "FCL", cpp, fcl_template, "indep"},
-    Program{"fcl-distance", "fcl-distance", "FCL", cpp, fcl_template, "distance", false},
-    Program{"libccd", "libccd-gjk", "libccd", cpp, libccd_template, "gjk", false},
-    Program{"libccd-mpr", "libccd-mpr", "libccd", cpp, libccd_template, "mpr", false},
-    Program{"mujoco", "mujoco", "MuJoCo", cpp, mujoco_template, ""},
-    Program{"jolt", "jolt", "Jolt", javascript, jolt_mjs_template, "query"},
-    Program{"jolt", "jolt", "Jolt", cpp, jolt_doctest_template, "doctest"},
-    Program{"jolt-margin-0", "jolt-margin-0", "Jolt", javascript, jolt_mjs_template, "query"},
-    Program{"jolt-margin-0", "jolt-margin-0", "Jolt", cpp, jolt_doctest_template, "doctest"},
-    Program{"jolt-margin", "jolt-margin", "Jolt", javascript, jolt_mjs_template, "query"},
-    Program{"jolt-margin", "jolt-margin", "Jolt", cpp, jolt_doctest_template, "doctest"},
-    Program{"jolt-world", "jolt-world", "Jolt", javascript, jolt_mjs_template, "world"},
-    Program{"rapier", "rapier", "Rapier", javascript, rapier_mjs_template, "query"},
-    Program{"rapier-world", "rapier-world", "Rapier", javascript, rapier_mjs_template, "world"},
-    Program{"physx", "physx", "PhysX", javascript, physx_mjs_template, "query"},
-    Program{"physx-world", "physx-world", "PhysX", javascript, physx_mjs_template, "world"},
-    Program{"havok", "havok", "Havok", javascript, havok_mjs_template, "", false},
-    Program{"mujoco3", "mujoco3", "MuJoCo", javascript, mujoco3_mjs_template, ""},
-    Program{"mujoco3", "mujoco3", "MuJoCo", python, mujoco3_py_template, ""},
-    Program{"mujoco3-single", "mujoco3-single", "MuJoCo", javascript, mujoco3_mjs_template,
-            "single"},
-    Program{"mujoco3-single", "mujoco3-single", "MuJoCo", python, mujoco3_py_template, "single"}};
-
-std::string_view family_of(std::string_view name) { return name.substr(0, name.find(':')); }
 
 /// A string of C and Python.
 std::string string_literal(std::string_view text) {
@@ -103,17 +41,11 @@ std::string string_literal(std::string_view text) {
   return result + '"';
 }
 
-/// Has the program lines for the pair? Those that know convex bodies have lines for them.
-bool knows(const Program& program, Pair pair) {
-  if (pair == Pair::plane) return program.plane;
-  return pair != Pair::convex || program.source.find("convex]") != program.source.npos;
-}
-
 /// Throws InvalidInput (field "--emit") with those that know the pair.
 [[noreturn]] void refuse(std::string_view name, Pair pair) {
   std::vector<std::string> names = reproducer_engines();
   std::erase_if(names, [&](const std::string& n) {
-    return std::none_of(programs.begin(), programs.end(),
+    return std::none_of(programs().begin(), programs().end(),
                         [&](const Program& p) { return p.engine == n && knows(p, pair); });
   });
   const char* const what = pair == Pair::plane    ? ", that knows a half-space"
@@ -143,7 +75,7 @@ const Program& find_program(std::string_view name, std::string_view language,
   static const Program command{"", "", "", python, command_py_template, ""};
   const Pair pair = pair_of(c);
   std::vector<const Program*> of_engine;
-  for (const Program& p : programs) {
+  for (const Program& p : programs()) {
     // Another setting of an engine is asked as the plug-in that it is.
     if (p.engine == (find_npm_engine(family_of(name)) ? family_of(name) : name) ||
         p.candidate == name) {
@@ -190,13 +122,6 @@ std::string_view tag_of_distance(double distance, double allowed, double thresho
   if (distance > threshold + allowed) return "apart";
   if (distance < -allowed) return "overlapping";
   return distance > allowed ? "near" : "touching";
-}
-
-/// The version of one of npm's packages that candidates/npm is made for.
-std::string package_version(std::string_view package) {
-  const std::string member = fmt::format("\"{}\": \"", package);
-  const std::string_view rest = package_json.substr(package_json.find(member) + member.size());
-  return std::string(rest.substr(0, rest.find('"')));
 }
 
 /// The folder of touchstone/candidate.h, of a build or an installed program.
@@ -256,70 +181,6 @@ Texts candidate_texts(const Candidate* candidate) {
   return texts;
 }
 
-// Templates are programs with two additions: @name@ stands for a text, and a line that begins with
-// [tag] or [tag,tag] is there only where one of the tags applies; with several brackets, one of
-// each. A file may have sections, each after a line "=== name".
-
-using Tags = std::vector<std::string_view>;
-
-/// The names in a list with commas.
-Tags names_in(std::string_view list) {
-  Tags names;
-  while (!list.empty()) {
-    const auto comma = list.find(',');
-    names.push_back(list.substr(0, comma));
-    list = comma == list.npos ? "" : list.substr(comma + 1);
-  }
-  return names;
-}
-
-/// Does one of the names in a list with commas stand among the tags?
-bool names_one(std::string_view list, const Tags& tags) {
-  const Tags names = names_in(list);
-  return std::find_first_of(names.begin(), names.end(), tags.begin(), tags.end()) != names.end();
-}
-
-/// The lines for these tags, without the brackets.
-std::string lines_for(const Tags& tags, std::string_view source) {
-  std::string result;
-  while (!source.empty()) {
-    const auto end = std::min(source.find('\n'), source.size() - 1) + 1;
-    std::string_view line = source.substr(0, end);
-    source.remove_prefix(end);
-    bool applies = true;
-    while (applies && line.starts_with('[')) {
-      const auto close = line.find(']');
-      applies = names_one(line.substr(1, close - 1), tags);
-      line.remove_prefix(close + (line[close + 1] == ' ' ? 2 : 1));
-    }
-    if (applies) result += line;
-  }
-  return result;
-}
-
-/// The lines of a section, without the last line's end.
-std::string_view section(std::string_view source, std::string_view name) {
-  const std::string heading = "=== " + std::string(name) + '\n';
-  source.remove_prefix(source.find(heading) + heading.size());
-  return source.substr(0, source.find("\n=== "));
-}
-
-/// The template's lines for these tags with every @name@ replaced, without empty lines at the end;
-/// what is put in is not searched again. Throws std::out_of_range for an unknown name.
-std::string fill_template(std::string_view source, const Tags& tags, const Texts& texts) {
-  const std::string lines = lines_for(tags, source);
-  std::string result;
-  for (std::string_view rest = lines;;) {
-    const auto at = rest.find('@');
-    result += rest.substr(0, at);
-    if (at == rest.npos) break;
-    const auto end = rest.find('@', at + 1);
-    result += texts.at(std::string(rest.substr(at + 1, end - at - 1)));
-    rest.remove_prefix(end + 1);
-  }
-  return result.substr(0, result.find_last_not_of('\n') + 1);
-}
-
 /// A test case of Jolt has floats, which must hold the numbers of both bodies.
 void require_floats(std::string_view name, const Configuration& c) {
   Numbers numbers = numbers_of(c);
@@ -343,7 +204,7 @@ void require_floats(std::string_view name, const Configuration& c) {
 
 std::vector<std::string> reproducer_engines() {
   std::vector<std::string> names;
-  for (const Program& p : programs) {
+  for (const Program& p : programs()) {
     if (names.empty() || names.back() != p.engine) names.emplace_back(p.engine);
   }
   return names;
@@ -352,9 +213,9 @@ std::vector<std::string> reproducer_engines() {
 std::string reproducer(std::string_view name, std::string_view language, const Configuration& c,
                        const std::string& asked, const Bar& bar, const Limits& limits) {
   const auto same = [&](const Program& p) { return p.engine == name; };
-  const auto of_engine = std::find_if(programs.begin(), programs.end(), same);
+  const auto of_engine = std::find_if(programs().begin(), programs().end(), same);
   const Candidate* const candidate =
-      askable_candidate(of_engine == programs.end() ? name : of_engine->candidate);
+      askable_candidate(of_engine == programs().end() ? name : of_engine->candidate);
   const Program& program = find_program(name, language, c, candidate);
   if (program.tags == "doctest") require_floats(name, c);
   const std::string title(program.title.empty() ? "The candidate" : program.title);

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "reference/configuration.hpp"
+#include "reports/reproducer/texts.hpp"
+
+namespace touchstone {
+
+// The programs that ask an engine: a table over the files of candidates/reproducers.
+
+struct Language {
+  std::string_view name;    ///< for --language
+  std::string_view remark;  ///< begins one
+  const std::string_view& shared;
+  NumberStyle numbers;
+};
+extern const Language cpp, javascript, python;
+
+/// A program that asks an engine.
+struct Program {
+  std::string_view engine;     ///< name for --emit, without parameter
+  std::string_view candidate;  ///< gives the answers that it repeats
+  std::string_view title;
+  const Language& language;
+  const std::string_view& source;
+  std::string_view tags;  ///< for its lines, with commas
+  bool plane = true;      ///< it has a routine for the half-space
+};
+
+/// Those that need nothing of ours. The first of an engine is the usual one.
+std::span<const Program> programs();
+
+/// Has the program lines for the pair? Those that know convex bodies have lines for them.
+bool knows(const Program& program, Pair pair);
+
+/// "jolt-margin" of "jolt-margin:0.02".
+std::string_view family_of(std::string_view name);
+
+/// The version of one of npm's packages that candidates/npm is made for.
+std::string package_version(std::string_view package);
+
+}  // namespace touchstone
