@@ -1,6 +1,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <memory>
 #include <unistd.h>
 
@@ -9,6 +10,7 @@
 #include "cli/options.hpp"
 #include "properties/files/disk.hpp"
 #include "reference/invalid_input.hpp"
+#include "reports/idioms/idiom.hpp"
 #include "reports/test_data/test_data.hpp"
 
 namespace touchstone {
@@ -20,7 +22,8 @@ struct ExportArguments {
   SampleOption sample;
   BarOption bar;
   WorkersOption workers;
-  std::string out = "-", format_name;
+  std::string out = "-", format_name, idiom, engine;
+  std::uint64_t limit = 30;
   bool suite = false;
 
   Campaign campaign() const {
@@ -48,6 +51,22 @@ struct ExportArguments {
     return suite ? TestDataFormat::csv : TestDataFormat::json_lines;
   }
 };
+
+/// Tests for an engine, in one piece.
+int run_export_tests(const ExportArguments& options) {
+  if (options.engine.empty()) {
+    throw InvalidInput("--engine", "missing", "must name the engine that is tested, as bullet");
+  }
+  if (options.out != "-") check_file_writable(options.out, "--out");
+  const std::string text = idiom_file({options.idiom, options.engine, options.sample.pairs(),
+                                       options.sample.seed(), options.limit});
+  if (options.out == "-") {
+    print(text);
+  } else {
+    write_file(options.out, text, "--out");
+  }
+  return 0;
+}
 
 /// A file is written as a whole or not at all, standard output as it comes.
 int run_export(const ExportArguments& options) {
@@ -98,13 +117,23 @@ void add_export(Program& program) {
       .value("FORMAT");
   command.flag("--suite", options->suite,
                "touchstone-suite-1, as suite/ has it, by default as CSV");
+  const Option as = command
+                        .text("--as", options->idiom,
+                              fmt::format("Write a file of tests for an engine's project: {}",
+                                          fmt::join(idioms(), ", ")))
+                        .value("IDIOM");
+  command.text("--engine", options->engine, "The engine, as for replay --emit").value("ENGINE");
+  command.count("--limit", options->limit, {1, 1000}, "At most so many tests");
+  command.mode(as, {"--engine", "--limit"}, {"--pair", "--seed", "--out"});
   command.footer(
       "Examples:\n"
       "  touchstone export --out truth.csv\n"
+      "  touchstone export --as gtest --engine bullet --out contacts_test.cpp\n"
       "  touchstone export --pair cylinder-box --count 100 --out truth.npz\n"
       "  touchstone export --suite | gzip -9n > touchstone-suite-1.csv.gz\n"
       "What the files hold: docs/your-poses.md.");
-  command.runs([options] { return run_export(*options); });
+  command.runs(
+      [options, as] { return as.is_given() ? run_export_tests(*options) : run_export(*options); });
 }
 
 }  // namespace touchstone

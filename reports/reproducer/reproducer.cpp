@@ -244,10 +244,16 @@ std::string reproducer(std::string_view name, std::string_view language, const C
             // A backslash at a line's end would make the next one a part of the comment.
             {"asked", escaped(asked, Printed::one_line) + (asked.ends_with('\\') ? "." : "")},
             {"remark", std::string(program.language.remark)},
+            // A file of tests has more to say here (reports/idioms).
+            {"program", "reproducer"},
+            {"and_libraries", ""},
+            {"and_packages", ""},
+            {"override", ""},
             {"seen", seen(title, numbers, candidate, c, truth, bar, limits)}});
   const auto part = [&](std::string_view source) { return fill_template(source, tags, texts); };
   texts["mjcf"] = part(mjcf_template);
   texts["head"] = part(head_template);
+  texts["answer"] = part(section(program.language.shared, "answer"));
   texts["question"] = part(section(program.language.shared, "question")) + '\n';
   texts["judgement"] = part(section(program.language.shared, "judgement"));
   return part(program.source) + '\n';

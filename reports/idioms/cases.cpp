@@ -1,0 +1,192 @@
+#include "reports/idioms/cases.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <variant>
+
+#include "oracle/patch/contact_patch.hpp"
+#include "properties/numbers.hpp"
+#include "properties/pose_class.hpp"
+#include "properties/simplify.hpp"
+#include "reference/invalid_input.hpp"
+#include "reports/campaign.hpp"
+#include "reports/reproducer/texts.hpp"
+
+namespace touchstone {
+namespace {
+
+/// Draws of an arrangement among which one is looked for that the engine gets wrong.
+constexpr std::uint64_t draws = 12;
+/// Steps by which a case is made simpler after its numbers are rounded.
+constexpr int simpler_trials = 60;
+/// A case is left out if its verdict is another one with the tolerance by this factor smaller or
+/// larger: another compiler or processor might find that.
+constexpr double sure = 3;
+
+/// How the bodies meet, which must stay as it is when numbers become smaller.
+struct Meeting {
+  enum class Kind { apart, near, touching, overlapping } kind;
+  oracle::Ties ties;
+  oracle::Alignment to_a;
+  std::array<oracle::Alignment, 3> to_b;
+  std::size_t vertices;
+  decltype(std::declval<oracle::ContactPatch>().kind()) patch;
+  bool operator==(const Meeting&) const = default;
+};
+
+Meeting meeting_of(const Configuration& c, const oracle::Truth& truth, double tolerance) {
+  const oracle::Enclosure& distance = truth.signed_distance;
+  using enum Meeting::Kind;
+  const auto kind = distance.lo == 0 && distance.hi == 0      ? touching
+                    : distance.midpoint() < -sure * tolerance ? overlapping
+                    : distance.midpoint() > sure * tolerance  ? apart
+                                                              : near;
+  const oracle::OptimalNormal& n = truth.normals.front();
+  return {kind, truth.ties, n.to_a, n.to_b, n.support_b.size(), oracle::contact_patch(c, n).kind()};
+}
+
+/// Of the numbers of both bodies as floats: how far rounding moves their surfaces. A number is
+/// rounded by 2^-24 of it; an orientation turns by no more than 2^-22 then.
+double moved_by_rounding(const Configuration& c) {
+  const auto* const plane = std::get_if<Plane>(&c.b);
+  const double sizes = 2 * larger_size(c) + (plane ? std::abs(plane->unit_displacement()) : 0);
+  return 0x1p-22 * (sizes + c.pose_a.position().norm() + c.pose_b.position().norm());
+}
+
+class Chooser {
+ public:
+  explicit Chooser(const IdiomQuestion& question) : question_(question) {}
+
+  /// Of so many draws the first that the engine gets wrong, or the first, with small numbers.
+  std::optional<IdiomCase> case_of(const PoseClass& pose_class) const {
+    std::optional<IdiomCase> chosen;
+    for (std::uint64_t i = 0; i < draws; ++i) {
+      const Identity identity(pose_class, question_.seed, i);
+      const auto drawn = judged(identity, make_configuration(identity));
+      if (!drawn || meeting(*drawn).kind == Meeting::Kind::near) continue;
+      if (!chosen) chosen = drawn;
+      if (drawn->verdict == "right") continue;
+      chosen = drawn;
+      break;
+    }
+    return chosen ? std::optional(rounded(*chosen)) : std::nullopt;
+  }
+
+  IdiomCase simplest(const IdiomCase& given) const {
+    IdiomCase best = given;
+    const auto stays = [&](const Configuration& c) {
+      auto next = like(given, c);
+      if (next) best = std::move(*next);
+      return next.has_value();
+    };
+    simplified(given.configuration, stays, simpler_trials);
+    return best;
+  }
+
+ private:
+  /// The case of these numbers, or nothing where its verdict is unsure or not a report's.
+  std::optional<IdiomCase> judged(const Identity& identity, const Configuration& given) const {
+    const Configuration c = as_asked(given);
+    IdiomCase result{identity, c, oracle::truth(c), 0, 0, "right"};
+    result.tolerance = question_.bar.tolerance * error_size(c, question_.bar);
+    result.float_tolerance = result.tolerance + moved_by_rounding(c);
+    if (!question_.ask) return result;
+    const Answer answer = question_.ask(c);
+    const double distance = result.truth.signed_distance.midpoint();
+    const double tolerance = question_.is_single ? result.float_tolerance : result.tolerance;
+    result.verdict = idiom_verdict(c, distance, tolerance, answer);
+    for (const double factor : {1 / sure, sure}) {
+      if (idiom_verdict(c, distance, factor * tolerance, answer) != result.verdict) return {};
+    }
+    const Outcome outcome = score(c, result.truth, answer, question_.bar).outcome;
+    const char* const reported = agrees(outcome) ? "right" : outcome_name(outcome);
+    if (result.verdict != reported) return {};
+    return result;
+  }
+
+  static Meeting meeting(const IdiomCase& c) {
+    return meeting_of(c.configuration, c.truth, c.tolerance);
+  }
+
+  /// The case of other numbers, if bodies meet as in this one and the engine does the same.
+  std::optional<IdiomCase> like(const IdiomCase& one, const Configuration& c) const {
+    auto next = judged(one.identity, c);
+    if (!next || next->verdict != one.verdict || !(meeting(*next) == meeting(one))) return {};
+    return next;
+  }
+
+  /// All numbers in as few binary digits as leave the case as it is.
+  IdiomCase rounded(const IdiomCase& given) const {
+    for (const int bits : {3, 4, 5, 6, 8, 10, 12, 16, 20}) {
+      Numbers numbers = numbers_of(given.configuration);
+      const double grid = std::ldexp(1.0, std::ilogb(smaller_size(given.configuration)) - bits);
+      const auto round = [&](double x) { return std::round(x / grid) * grid; };
+      for (double& size : numbers.sizes) size = std::max(grid, round(size));
+      for (Vec3& vertex : numbers.vertices) vertex = vertex.unaryExpr(round);
+      for (Vec3* v : {&numbers.position_a, &numbers.position_b}) *v = v->unaryExpr(round);
+      for (Eigen::Quaterniond* q : {&numbers.orientation_a, &numbers.orientation_b}) {
+        q->coeffs() *= std::ldexp(1.0, bits / 2) / q->coeffs().cwiseAbs().maxCoeff();
+        q->coeffs() = q->coeffs().array().round().matrix();
+      }
+      numbers.displacement = round(numbers.displacement);
+      try {
+        Configuration c = configuration_of(numbers);
+        if (meeting(given).kind == Meeting::Kind::touching) touch(c);
+        if (auto next = like(given, c)) return *next;
+      } catch (const InvalidInput&) {  // hulls may lose their corners
+      }
+    }
+    return given;
+  }
+
+  /// Moves A by the signed distance: exactly, where the normal lies along an axis of the world.
+  static void touch(Configuration& c) {
+    const oracle::Truth truth = oracle::truth(as_asked(c));
+    const Vec3 by = -truth.signed_distance.midpoint() * truth.normals.front().n;
+    c.pose_a = Pose(c.pose_a.position() + by, c.pose_a.orientation());
+  }
+
+  const IdiomQuestion& question_;
+};
+
+/// The class of an arrangement alone: in the world's frame, where that makes sense, for its numbers
+/// are smaller there.
+PoseClass smallest_class(Pair pair, const Arrangement& arrangement) {
+  const auto aligned = parse_pose_class(pair, arrangement.name + "+aligned");
+  if (const auto* const found = std::get_if<PoseClass>(&aligned)) return *found;
+  return {pair, arrangement.name};
+}
+
+}  // namespace
+
+std::vector<IdiomCase> idiom_cases(const IdiomQuestion& question) {
+  const Chooser chooser(question);
+  std::vector<IdiomCase> cases;
+  for (const Pair pair : question.pairs) {
+    for (const Arrangement& arrangement : arrangements(pair)) {
+      using enum Arrangement::Orientations;
+      if (arrangement.orientations == recorded || arrangement.orientations == mixed) continue;
+      if (auto found = chooser.case_of(smallest_class(pair, arrangement))) {
+        cases.push_back(std::move(*found));
+      }
+    }
+  }
+  std::stable_sort(cases.begin(), cases.end(), [](const IdiomCase& a, const IdiomCase& b) {
+    const auto rank = [](const IdiomCase& c) {
+      return std::pair(c.verdict == "right", complexity(c.configuration));
+    };
+    return rank(a) < rank(b);
+  });
+  if (cases.size() > question.limit)
+    cases.erase(cases.begin() + static_cast<long>(question.limit), cases.end());
+  for (IdiomCase& c : cases) c = chooser.simplest(c);
+  std::stable_sort(cases.begin(), cases.end(), [](const IdiomCase& a, const IdiomCase& b) {
+    return pair_of(a.configuration) < pair_of(b.configuration);
+  });
+  return cases;
+}
+
+}  // namespace touchstone
