@@ -56,6 +56,16 @@ double moved_by_rounding(const Configuration& c) {
   return 0x1p-22 * (sizes + c.pose_a.position().norm() + c.pose_b.position().norm());
 }
 
+/// Are all lengths floats? Of orientations only those by quarters and thirds of a turn can be.
+bool in_float(const Configuration& c) {
+  const Numbers numbers = numbers_of(c);
+  const auto is_float = [](double x) { return static_cast<double>(static_cast<float>(x)) == x; };
+  return std::all_of(numbers.sizes.begin(), numbers.sizes.end(), is_float) &&
+         std::all_of(numbers.position_a.begin(), numbers.position_a.end(), is_float) &&
+         std::all_of(numbers.position_b.begin(), numbers.position_b.end(), is_float) &&
+         is_float(numbers.displacement);
+}
+
 class Chooser {
  public:
   explicit Chooser(const IdiomQuestion& question) : question_(question) {}
@@ -78,6 +88,7 @@ class Chooser {
   IdiomCase simplest(const IdiomCase& given) const {
     IdiomCase best = given;
     const auto stays = [&](const Configuration& c) {
+      if (in_float(given.configuration) && !in_float(c)) return false;
       auto next = like(given, c);
       if (next) best = std::move(*next);
       return next.has_value();
@@ -118,28 +129,42 @@ class Chooser {
     return next;
   }
 
-  /// All numbers in as few binary digits as leave the case as it is.
+  /// All numbers in as few binary digits as leave the case as it is: in B's frame, where that does.
   IdiomCase rounded(const IdiomCase& given) const {
     for (const int bits : {3, 4, 5, 6, 8, 10, 12, 16, 20}) {
-      Numbers numbers = numbers_of(given.configuration);
-      const double grid = std::ldexp(1.0, std::ilogb(smaller_size(given.configuration)) - bits);
-      const auto round = [&](double x) { return std::round(x / grid) * grid; };
-      for (double& size : numbers.sizes) size = std::max(grid, round(size));
-      for (Vec3& vertex : numbers.vertices) vertex = vertex.unaryExpr(round);
-      for (Vec3* v : {&numbers.position_a, &numbers.position_b}) *v = v->unaryExpr(round);
-      for (Eigen::Quaterniond* q : {&numbers.orientation_a, &numbers.orientation_b}) {
-        q->coeffs() *= std::ldexp(1.0, bits / 2) / q->coeffs().cwiseAbs().maxCoeff();
-        q->coeffs() = q->coeffs().array().round().matrix();
-      }
-      numbers.displacement = round(numbers.displacement);
-      try {
-        Configuration c = configuration_of(numbers);
-        if (meeting(given).kind == Meeting::Kind::touching) touch(c);
-        if (auto next = like(given, c)) return *next;
-      } catch (const InvalidInput&) {  // hulls may lose their corners
+      for (const bool in_frame_of_b : {true, false}) {
+        try {
+          Configuration c = on_grid(given.configuration, in_frame_of_b, bits);
+          if (meeting(given).kind == Meeting::Kind::touching) touch(c);
+          if (auto next = like(given, c)) return *next;
+        } catch (const InvalidInput&) {  // hulls may lose their corners
+        }
       }
     }
     return given;
+  }
+
+  static Configuration on_grid(const Configuration& c, bool in_frame_of_b, int bits) {
+    Numbers numbers = numbers_of(c);
+    if (in_frame_of_b) {
+      const Eigen::Quaterniond back = c.pose_b.unit_orientation().conjugate();
+      numbers.position_a = back * (numbers.position_a - numbers.position_b);
+      numbers.orientation_a = back * c.pose_a.unit_orientation();
+      numbers.position_b.setZero();
+      numbers.orientation_b.setIdentity();
+    }
+    const double grid = std::ldexp(1.0, std::ilogb(smaller_size(c)) - bits);
+    // Never the zero with a sign.
+    const auto round = [grid](double x) { return std::round(x / grid) * grid + 0.0; };
+    for (double& size : numbers.sizes) size = std::max(grid, round(size));
+    for (Vec3& vertex : numbers.vertices) vertex = vertex.unaryExpr(round);
+    for (Vec3* v : {&numbers.position_a, &numbers.position_b}) *v = v->unaryExpr(round).eval();
+    for (Eigen::Quaterniond* q : {&numbers.orientation_a, &numbers.orientation_b}) {
+      q->coeffs() *= std::ldexp(1.0, bits / 2) / q->coeffs().cwiseAbs().maxCoeff();
+      q->coeffs() = (q->coeffs().array().round() + 0.0).matrix().eval();
+    }
+    numbers.displacement = round(numbers.displacement);
+    return configuration_of(numbers);
   }
 
   /// Moves A by the signed distance: exactly, where the normal lies along an axis of the world.

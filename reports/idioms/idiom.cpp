@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <map>
 #include <memory>
+#include <variant>
 
 #include "candidates/candidates.hpp"
 #include "candidates/npm_engines.hpp"
@@ -21,7 +23,7 @@
 namespace touchstone {
 
 // Made by the build from the files tests.*.in of candidates/reproducers.
-extern const std::string_view tests_cpp_template;
+extern const std::string_view tests_cpp_template, tests_mjs_template, mjcf_template;
 
 namespace {
 
@@ -34,20 +36,23 @@ struct Idiom {
 };
 
 const std::vector<Idiom>& all_idioms() {
-  static const std::vector<Idiom> all = {{"gtest",
-                                          cpp,
-                                          tests_cpp_template,
-                                          {{"program", "cylinder_contacts_test"},
-                                           {"and_libraries", " -lgtest_main -lgtest"},
-                                           {"and_packages", " libgtest-dev"},
-                                           {"override", " override"}}}};
+  static const std::vector<Idiom> all = {
+      {"gtest",
+       cpp,
+       tests_cpp_template,
+       {{"program", "cylinder_contacts_test"},
+        {"and_libraries", " -lgtest_main -lgtest"},
+        {"and_packages", " libgtest-dev"},
+        {"override", " override"}}},
+      {"js", javascript, tests_mjs_template, {{"program", "cylinder_contacts.test"}}}};
   return all;
 }
 
 /// Can its part that asks stand in a class, or a function, of its own for each pair?
 bool fits(const Program& program, const Idiom& idiom) {
-  return &program.language == &idiom.language &&
-         program.source.find("@override@") != program.source.npos;
+  return &program.language == &idiom.language && program.engine != "jolt-margin" &&
+         (&program.language == &javascript ||
+          program.source.find("@override@") != program.source.npos);
 }
 
 const Program& program_of(const Idiom& idiom, const std::string& engine) {
@@ -121,14 +126,103 @@ std::string_view deed(const std::string& verdict) {
   return deeds.at(verdict);
 }
 
-Texts case_texts(const IdiomCase& c, const std::string& engine, const Idiom& idiom) {
+/// How an engine writes rotations and the axis of its cylinders.
+struct Habit {
+  char axis;
+  bool real_part_first;
+};
+
+Habit habit_of(const Program& program, const Tags& tags) {
+  const auto has = [&](std::string_view tag) {
+    return std::find(tags.begin(), tags.end(), tag) != tags.end();
+  };
+  return {has("x") ? 'x' : has("y") ? 'y' : 'z', program.title == "MuJoCo"};
+}
+
+/// The world with its axes renamed, so that what lay along z lies along `axis`: all numbers stay.
+Vec3 renamed(const Vec3& v, char axis) {
+  return axis == 'y' ? Vec3(v.y(), v.z(), v.x()) : axis == 'x' ? Vec3(v.z(), v.x(), v.y()) : v;
+}
+
+Pose renamed(const Pose& pose, char axis) {
+  const Eigen::Quaterniond& q = pose.orientation();
+  const Vec3 u = renamed(Vec3(q.x(), q.y(), q.z()), axis);
+  return {renamed(pose.position(), axis), Eigen::Quaterniond(q.w(), u.x(), u.y(), u.z())};
+}
+
+/// As the engine has it: cylinders and capsules along that axis of their frames.
+Configuration renamed(const Configuration& c, char axis) {
+  Configuration result{c.a, renamed(c.pose_a, axis), c.b, renamed(c.pose_b, axis)};
+  if (const auto* const box = std::get_if<Box>(&c.b))
+    result.b = Box(renamed(box->half_extents(), axis));
+  if (const auto* const plane = std::get_if<Plane>(&c.b)) {
+    result.b = Plane(renamed(plane->normal(), axis), plane->displacement());
+  }
+  return result;
+}
+
+/// The answer of a candidate, whose cylinders lie along z, to the renamed configuration, with the
+/// world's axes as they were.
+Answer answer_in_axis(CandidateProcess& process, const Configuration& c, char axis) {
+  if (axis == 'z') return process.answer(c);
+  Configuration asked = renamed(c, axis);
+  const Eigen::Quaterniond z_to_axis = axis == 'y' ? Eigen::Quaterniond(M_SQRT1_2, -M_SQRT1_2, 0, 0)
+                                                   : Eigen::Quaterniond(M_SQRT1_2, 0, M_SQRT1_2, 0);
+  const auto turn = [&](Pose& pose) {
+    pose = Pose(pose.position(), pose.orientation() * z_to_axis);
+  };
+  turn(asked.pose_a);
+  const Pair pair = pair_of(c);
+  if (pair == Pair::cylinder || pair == Pair::capsule) turn(asked.pose_b);
+  Answer answer = process.answer(asked);
+  const auto back = [axis](double(&v)[3]) {
+    const Vec3 u = renamed(Vec3(v[0], v[1], v[2]), axis == 'y' ? 'x' : 'y');
+    for (int i = 0; i < 3; ++i) v[i] = u[i];
+  };
+  back(answer.normal);
+  for (int i = 0; i < answer.point_count; ++i) {
+    back(answer.points[i].position);
+    back(answer.points[i].normal);
+  }
+  return answer;
+}
+
+/// What stands for numbers in the part that asks, where they are a case's.
+Texts names_in_javascript() {
+  Texts texts;
+  for (const std::string body : {"a", "b"}) {
+    const std::string Body = body == "a" ? "A" : "B", turn = "...orientation" + Body;
+    for (const char* name : {"_along_x", "_along_y"}) texts[body + name] = turn;
+    texts["xyzw_" + body] = turn;
+    texts["orientation_" + body] = fmt::format("orientation{0}[3], {1}.slice(0, 3)", Body, turn);
+    for (const char* name : {"position", "orientation"}) {
+      texts[fmt::format("{}_{}_xml", name, body)] = fmt::format("${{{}{}.join(' ')}}", name, Body);
+    }
+    texts["radius_" + body] = "${radius" + Body + "}";
+    texts["half_length_" + body] = "${halfLength" + Body + "}";
+    texts["convex_radius_" + body] = "convexRadius" + Body;
+  }
+  texts.merge(Texts{{"half_b_xml", "${halfB.join(' ')}"},
+                    {"plane_point", "...pointB"},
+                    {"plane_point_xml", "${pointB.join(' ')}"},
+                    {"plane_along_x", "...turnB"},
+                    {"plane_along_z_xml", "${turnB.join(' ')}"},
+                    {"threshold", "${threshold}"}});
+  return texts;
+}
+
+Texts case_texts(const IdiomCase& c, const std::string& engine, const Idiom& idiom, Habit habit) {
   const PoseClass& of = c.identity.pose_class;
-  Texts texts = question_texts(c.configuration, NumberStyle::decimal);
+  Texts texts = question_texts(renamed(c.configuration, habit.axis), NumberStyle::decimal);
   std::string sentences = of.arrangement->description;
   if (c.verdict != "right") sentences += fmt::format(" {} {}.", engine, deed(c.verdict));
   sentences += fmt::format(" (Rounded from {}.)", to_string(c.identity));
   texts["sentences"] = comment(idiom.language.remark, sentences);
+  texts["title"] = of.arrangement->name;
   texts["name"] = camel_case(of.arrangement->name);
+  for (const std::string body : {"a", "b"}) {
+    texts["turn_" + body] = texts[(habit.real_part_first ? "orientation_" : "xyzw_") + body];
+  }
   texts["true_distance"] = fmt::format("{}", nearest_to_middle(c.truth.signed_distance));
   texts["tolerance"] = fmt::format("{:.2g}", c.tolerance);
   texts["float_tolerance"] = fmt::format("{:.2g}", c.float_tolerance);
@@ -168,52 +262,84 @@ std::string idiom_file(const IdiomRequest& request) {
                        fmt::format("must be one that {} knows", program.engine));
   }
   Tags tags = names_in(program.tags);
-  question.is_single = std::find(tags.begin(), tags.end(), "float") != tags.end();
+  const auto has = [&](std::string_view tag) {
+    return std::find(tags.begin(), tags.end(), tag) != tags.end();
+  };
+  question.is_single = has("float");
+  const Habit habit = habit_of(program, tags);
   if (candidate) {
     process = std::make_unique<CandidateProcess>(*candidate, request.bar.threshold, request.limits);
-    question.ask = [&](const Configuration& c) { return process->answer(c); };
+    question.ask = [&](const Configuration& c) { return answer_in_axis(*process, c, habit.axis); };
   }
   const std::vector<IdiomCase> cases = idiom_cases(question);
+  if (cases.empty()) {
+    throw InvalidInput("--pair", in_quotes(pair_name(question.pairs.front())),
+                       "must be one with arrangements of poses");
+  }
 
   const std::string version = candidate ? candidate->version : "(not installed)";
   Texts texts = idiom.texts;
   texts.merge(Texts{{"engine", std::string(program.title)},
                     {"engine_version", version},
                     {"command", command_of(request)},
-                    {"single_precision", question.is_single ? "true" : "false"}});
-  tags.insert(tags.end(), {"engine", idiom.name});
-  Tags tags_of_all = tags;
+                    {"single_precision", question.is_single ? "true" : "false"},
+                    {"axis_name", std::string(1, habit.axis)},
+                    {"axis", habit.axis == 'x'   ? "1, 0, 0"
+                             : habit.axis == 'y' ? "0, 1, 0"
+                                                 : "0, 0, 1"},
+                    {"order", habit.real_part_first ? "w, x, y, z" : "x, y, z, w"}});
+  texts.merge(npm_texts(program, program.engine, candidate, cases.front().configuration));
+  const Tags of_file = {"engine", idiom.name, habit.real_part_first ? "wxyz" : "xyzw"};
+  const auto tags_of = [&](const IdiomCase& c) {
+    const Pair pair = pair_of(c.configuration);
+    Tags result = names_in(tags_for(program, pair));
+    result.insert(result.end(), of_file.begin(), of_file.end());
+    const std::string_view name = pair_name(pair);
+    result.push_back(name.substr(name.find('-') + 1));
+    return result;
+  };
+  Tags of_all = tags;
   for (const IdiomCase& c : cases) {
-    const std::string_view name = pair_name(pair_of(c.configuration));
-    tags_of_all.push_back(name.substr(name.find('-') + 1));
+    for (const std::string_view tag : tags_of(c)) of_all.push_back(tag);
   }
   const auto frame = [&](std::string_view name, const Tags& its_tags) {
     return fill_template(section(idiom.frame, name), its_tags, texts);
   };
-  texts["answer"] = fill_template(section(idiom.language.shared, "answer"), tags, texts);
-  texts["head"] = frame("head", tags);
+  texts["answer"] = fill_template(section(idiom.language.shared, "answer"), of_all, texts);
+  texts["head"] = frame("head", of_all);
   constexpr std::string_view asked = "@question@", judged = "@judgement@";
   const std::string_view source = program.source;
   const auto question_at = source.find(asked);
   const std::string_view once = source.substr(0, question_at);
   const std::string_view asking =
       source.substr(question_at + asked.size(), source.find(judged) - question_at - asked.size());
-  std::string file = fill_template(once, tags_of_all, texts) + "\n\n" + frame("judge", tags) + "\n";
+  std::string file = fill_template(once, of_all, texts) + "\n\n" + frame("judge", of_all) + "\n";
   std::string shape;
   for (const IdiomCase& c : cases) {
-    for (auto& [name, text] : case_texts(c, fmt::format("{} {}", program.title, version), idiom))
+    for (auto& [name, text] :
+         case_texts(c, fmt::format("{} {}", program.title, version), idiom, habit)) {
       texts[name] = text;
-    Tags tags_of_case = tags;
-    tags_of_case.push_back(texts["shape_b"]);
+    }
+    for (auto& [name, text] : npm_texts(program, program.engine, candidate, c.configuration)) {
+      texts[name] = text;
+    }
+    const Tags of_case = tags_of(c);
     if (texts["shape_b"] != shape) {
       shape = texts["shape_b"];
-      const std::string lines = fill_template(asking, tags_of_case, texts);
+      Texts symbolic = texts;
+      if (&idiom.language == &javascript) {
+        symbolic = names_in_javascript();
+        symbolic.merge(Texts(texts));
+        symbolic["mjcf"] = fill_template(mjcf_template, of_case, symbolic);
+      }
+      const std::string lines = fill_template(asking, of_case, symbolic);
       texts["asking"] = indented(lines.substr(lines.find_first_not_of('\n')), 2);
-      file += '\n' + frame("pair", tags_of_case) + '\n';
+      file += '\n' + frame("pair", of_case) + '\n';
     }
-    file += '\n' + frame("case", tags_of_case) + '\n';
+    file += '\n' + frame("case", of_case) + '\n';
   }
-  return file + '\n' + frame("foot", tags) + '\n';
+  const std::string foot = frame("foot", of_all);
+  return file + (foot.empty() ? "" : '\n' + foot + '\n');
 }
 
 }  // namespace touchstone

@@ -1,7 +1,13 @@
 #include "reports/reproducer/programs.hpp"
 
+#include <algorithm>
 #include <array>
 #include <fmt/format.h>
+#include <functional>
+
+#include "candidates/npm_engines.hpp"
+#include "properties/files/given_text.hpp"
+#include "reference/invalid_input.hpp"
 
 namespace touchstone {
 
@@ -31,18 +37,23 @@ std::span<const Program> programs() {
       Program{"libccd", "libccd-gjk", "libccd", cpp, libccd_template, "gjk", false},
       Program{"libccd-mpr", "libccd-mpr", "libccd", cpp, libccd_template, "mpr", false},
       Program{"mujoco", "mujoco", "MuJoCo", cpp, mujoco_template, ""},
-      Program{"jolt", "jolt", "Jolt", javascript, jolt_mjs_template, "query"},
+      Program{"jolt", "jolt", "Jolt", javascript, jolt_mjs_template, "query,y,float,margin"},
       Program{"jolt", "jolt", "Jolt", cpp, jolt_doctest_template, "doctest"},
-      Program{"jolt-margin-0", "jolt-margin-0", "Jolt", javascript, jolt_mjs_template, "query"},
+      Program{"jolt-margin-0", "jolt-margin-0", "Jolt", javascript, jolt_mjs_template,
+              "query,y,float,margin"},
       Program{"jolt-margin-0", "jolt-margin-0", "Jolt", cpp, jolt_doctest_template, "doctest"},
-      Program{"jolt-margin", "jolt-margin", "Jolt", javascript, jolt_mjs_template, "query"},
+      Program{"jolt-margin", "jolt-margin", "Jolt", javascript, jolt_mjs_template,
+              "query,y,float,margin"},
       Program{"jolt-margin", "jolt-margin", "Jolt", cpp, jolt_doctest_template, "doctest"},
-      Program{"jolt-world", "jolt-world", "Jolt", javascript, jolt_mjs_template, "world"},
-      Program{"rapier", "rapier", "Rapier", javascript, rapier_mjs_template, "query"},
-      Program{"rapier-world", "rapier-world", "Rapier", javascript, rapier_mjs_template, "world"},
-      Program{"physx", "physx", "PhysX", javascript, physx_mjs_template, "query"},
-      Program{"physx-world", "physx-world", "PhysX", javascript, physx_mjs_template, "world"},
-      Program{"havok", "havok", "Havok", javascript, havok_mjs_template, "", false},
+      Program{"jolt-world", "jolt-world", "Jolt", javascript, jolt_mjs_template,
+              "world,y,float,margin"},
+      Program{"rapier", "rapier", "Rapier", javascript, rapier_mjs_template, "query,y,float"},
+      Program{"rapier-world", "rapier-world", "Rapier", javascript, rapier_mjs_template,
+              "world,y,float"},
+      Program{"physx", "physx", "PhysX", javascript, physx_mjs_template, "query,x,float"},
+      Program{"physx-world", "physx-world", "PhysX", javascript, physx_mjs_template,
+              "world,x,float"},
+      Program{"havok", "havok", "Havok", javascript, havok_mjs_template, "float", false},
       Program{"mujoco3", "mujoco3", "MuJoCo", javascript, mujoco3_mjs_template, ""},
       Program{"mujoco3", "mujoco3", "MuJoCo", python, mujoco3_py_template, ""},
       Program{"mujoco3-single", "mujoco3-single", "MuJoCo", javascript, mujoco3_mjs_template,
@@ -58,10 +69,63 @@ bool knows(const Program& program, Pair pair) {
   return pair != Pair::convex || program.source.find("convex]") != program.source.npos;
 }
 
+namespace {
+
+/// The version of one of npm's packages that candidates/npm is made for.
 std::string package_version(std::string_view package) {
   const std::string member = fmt::format("\"{}\": \"", package);
   const std::string_view rest = package_json.substr(package_json.find(member) + member.size());
   return std::string(rest.substr(0, rest.find('"')));
+}
+
+}  // namespace
+
+std::string_view tags_for(const Program& program, Pair pair) {
+  // PhysX's query knows no plane, which its candidate asks a scene about.
+  return program.engine == "physx" && pair == Pair::plane ? "world,x,float" : program.tags;
+}
+
+std::string string_literal(std::string_view text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if (code < 0x20 || code == 0x7f) {
+      result += fmt::format("\\{:03o}", code);  // some controls end a line of source
+    } else {
+      if (c == '"' || c == '\\') result += '\\';
+      result += c;
+    }
+  }
+  return result + '"';
+}
+
+Texts npm_texts(const Program& program, std::string_view name, const Candidate* candidate,
+                const Configuration& c) {
+  const NpmEngine* const engine = find_npm_engine(program.candidate);
+  if (!engine) return {};
+  const std::string version = package_version(engine->package);
+  Texts texts{{"npm", std::string(engine->package)},
+              {"version", version},
+              {"package", fmt::format("{}@{}", engine->package, version)},
+              {"multiccd", program.tags == "single" ? "off" : "on, as by default"}};
+  std::function<double(double)> rule = [](double smallest) { return std::min(0.05, smallest / 2); };
+  texts["convex_rule"] = "0.05 m, at most half of the smallest half extent";
+  if (program.engine == "jolt-margin-0") {
+    texts["convex_rule"] = "0";
+    rule = [](double) { return 0.0; };
+  } else if (program.engine == "jolt-margin") {
+    const auto given = parse_double(name.substr(name.find(':') + 1));
+    // As candidates/npm/jolt.mjs has it.
+    if (!candidate && !(given && *given >= 0 && *given <= 1)) {
+      throw InvalidInput("--emit", string_literal(name),
+                         "must be jolt-margin: and the radius, from 0 to 1 metre");
+    }
+    const double radius = candidate ? candidate->value : *given;
+    texts["convex_rule"] = fmt::format("{} m, at most the smallest half extent", radius);
+    rule = [radius](double smallest) { return std::min(radius, smallest); };
+  }
+  texts.merge(convex_radius_texts(c, rule));
+  return texts;
 }
 
 }  // namespace touchstone

@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "candidates/candidates.hpp"
 #include "reference/configuration.hpp"
 #include "reports/reproducer/texts.hpp"
 
@@ -39,7 +40,15 @@ bool knows(const Program& program, Pair pair);
 /// "jolt-margin" of "jolt-margin:0.02".
 std::string_view family_of(std::string_view name);
 
-/// The version of one of npm's packages that candidates/npm is made for.
-std::string package_version(std::string_view package);
+/// A string of C and Python.
+std::string string_literal(std::string_view text);
+
+/// The tags of its lines for that pair.
+std::string_view tags_for(const Program& program, Pair pair);
+
+/// What stands in the programs of npm's engines alone. `name`: that of the engine as it was given.
+/// Throws InvalidInput (field "--emit").
+Texts npm_texts(const Program& program, std::string_view name, const Candidate* candidate,
+                const Configuration& c);
 
 }  // namespace touchstone

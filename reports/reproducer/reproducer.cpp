@@ -26,21 +26,6 @@ extern const std::string_view head_template, mjcf_template, plugin_template, com
 
 namespace {
 
-/// A string of C and Python.
-std::string string_literal(std::string_view text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    const auto code = static_cast<unsigned char>(c);
-    if (code < 0x20 || code == 0x7f) {
-      result += fmt::format("\\{:03o}", code);  // some controls end a line of source
-    } else {
-      if (c == '"' || c == '\\') result += '\\';
-      result += c;
-    }
-  }
-  return result + '"';
-}
-
 /// Throws InvalidInput (field "--emit") with those that know the pair.
 [[noreturn]] void refuse(std::string_view name, Pair pair) {
   std::vector<std::string> names = reproducer_engines();
@@ -134,36 +119,6 @@ std::string include_folder() {
   return "PREFIX/include";
 }
 
-/// What stands in the programs of npm's engines alone.
-Texts npm_texts(const Program& program, std::string_view name, const Candidate* candidate,
-                const Configuration& c) {
-  const NpmEngine* const engine = find_npm_engine(program.candidate);
-  if (!engine) return {};
-  const std::string version = package_version(engine->package);
-  Texts texts{{"npm", std::string(engine->package)},
-              {"version", version},
-              {"package", fmt::format("{}@{}", engine->package, version)},
-              {"multiccd", program.tags == "single" ? "off" : "on, as by default"}};
-  std::function<double(double)> rule = [](double smallest) { return std::min(0.05, smallest / 2); };
-  texts["convex_rule"] = "0.05 m, at most half of the smallest half extent";
-  if (program.engine == "jolt-margin-0") {
-    texts["convex_rule"] = "0";
-    rule = [](double) { return 0.0; };
-  } else if (program.engine == "jolt-margin") {
-    const auto given = parse_double(name.substr(name.find(':') + 1));
-    // As candidates/npm/jolt.mjs has it.
-    if (!candidate && !(given && *given >= 0 && *given <= 1)) {
-      throw InvalidInput("--emit", string_literal(name),
-                         "must be jolt-margin: and the radius, from 0 to 1 metre");
-    }
-    const double radius = candidate ? candidate->value : *given;
-    texts["convex_rule"] = fmt::format("{} m, at most the smallest half extent", radius);
-    rule = [radius](double smallest) { return std::min(radius, smallest); };
-  }
-  texts.merge(convex_radius_texts(c, rule));
-  return texts;
-}
-
 /// What stands in the programs that ask a plug-in or a command.
 Texts candidate_texts(const Candidate* candidate) {
   if (!candidate) return {};
@@ -230,9 +185,7 @@ std::string reproducer(std::string_view name, std::string_view language, const C
   texts.merge(npm_texts(program, name, candidate, c));
   texts.merge(candidate_texts(candidate));
   const std::string shape = shape_name(c.b);
-  // PhysX's query knows no plane, which its candidate asks a scene about.
-  const bool in_scene = program.engine == "physx" && pair_of(c) == Pair::plane;
-  Tags tags = names_in(in_scene ? "world" : program.tags);
+  Tags tags = names_in(tags_for(program, pair_of(c)));
   tags.insert(
       tags.end(),
       {shape, tag_of_distance(truth.signed_distance.midpoint(), allowed, bar.threshold),

@@ -1,0 +1,136 @@
+#!/usr/bin/env python3
+"""A file of tests does what it says: idiom_test.py PROGRAM SOURCE-FOLDER IDIOM ENGINE [OPTION…]
+
+Writes the file, runs it by the command in its comment, and all its tests pass. With every expected
+verdict struck out ("right" in its place) just those tests fail whose case the engine gets wrong. And
+with our own routine in the engine's place all of these pass. OPTIONs are those of `touchstone export`.
+"""
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+
+EXPECTED = {"gtest": r'(EXPECT_EQ\(verdict\(\), )"([a-z-]+)"', "js": r"(\), |reachOf\w+\), )'([a-z-]+)'(?=\);)"}
+NAMES = {"gtest": r"^TEST_F\((\w+), (\w+)\)", "js": r"^test\('(\S+) (\S+)'"}
+
+# Our routine, by its interface in C, in the place of the engine's answer.
+HEADERS_CPP = '#include "reference/touchstone_contacts.h"\n#include <cstdlib>\n\n'
+RIGHT_CPP = """template <class Case>
+Answer right_answer(const Case& c) {
+  touchstone_body a{TOUCHSTONE_CYLINDER, {c.radius_a, c.half_length_a}, {}, {}}, b{};
+  if constexpr (requires { c.half_b; }) b = {TOUCHSTONE_BOX, {c.half_b[0], c.half_b[1], c.half_b[2]}, {}, {}};
+  else if constexpr (requires { c.normal_b; })
+    b = {TOUCHSTONE_PLANE, {c.normal_b[0], c.normal_b[1], c.normal_b[2], c.displacement_b}, {}, {}};
+  else if constexpr (requires { c.half_length_b; })
+    b = {c.is_capsule ? TOUCHSTONE_CAPSULE : TOUCHSTONE_CYLINDER, {c.radius_b, c.half_length_b}, {}, {}};
+  else b = {TOUCHSTONE_SPHERE, {c.radius_b}, {}, {}};
+  std::copy_n(c.position_a.of, 3, a.position), std::copy_n(c.orientation_a.of, 4, a.orientation);
+  std::copy_n(c.position_b.of, 3, b.position), std::copy_n(c.orientation_b.of, 4, b.orientation);
+  touchstone_contact found;
+  if (touchstone_find_contact(&a, &b, 0, &found) != 0) std::abort();
+  Answer answer;
+  const double* n = found.normal;
+  for (int i = 0; i < found.point_count; ++i) {
+    const double* p = found.points[i].position;
+    add(answer, -found.points[i].depth, {n[0], n[1], n[2]}, {p[0], p[1], p[2]});
+  }
+  return answer;
+}
+
+"""
+
+# Likewise, by the program: the world is the engine's, and a cylinder's axis that of its own frame.
+RIGHT_JS = """
+import { execFileSync } from 'node:child_process';
+function rightAnswer(c, name) {
+  const orientation = ([@order@]) => [w, x, y, z], b = name.slice(3).toLowerCase();
+  const size = { radius: c.radiusB, half_length: c.halfLengthB, half_extents: c.halfB, normal: c.normalB,
+    displacement: c.displacementB };
+  const round = b === 'cylinder' || b === 'capsule';
+  const line = { a: { shape: 'cylinder', radius: c.radiusA, half_length: c.halfLengthA },
+    pose_a: { position: c.positionA, axis: axisOf(c.orientationA) }, b: { shape: b, ...size },
+    pose_b: { position: c.positionB, ...(round ? { axis: axisOf(c.orientationB) } : { orientation: orientation(c.orientationB) }) } };
+  const printed = execFileSync(process.env.TOUCHSTONE, ['solve', '--candidates', 'reference'], { input: JSON.stringify(line) });
+  const { reference } = JSON.parse(printed).answers;
+  return reference.status === 'none' ? null :
+    { distance: reference.signed_distance, normal: reference.normal, points: reference.points };
+}
+"""
+
+
+class File:
+    def __init__(self, program, source, idiom, engine, options, folder):
+        self.program, self.source, self.idiom, self.folder = program, source, idiom, folder
+        self.text = subprocess.run([program, "export", "--as", idiom, "--engine", engine, *options],
+                                   check=True, capture_output=True, text=True).stdout
+        self.names = [".".join(name) for name in re.findall(NAMES[idiom], self.text, re.MULTILINE)]
+        verdicts = [m[2] for m in re.finditer(EXPECTED[idiom], self.text)]
+        assert len(verdicts) == len(self.names) > 0, (len(verdicts), self.names)
+        self.wrong = {name for name, verdict in zip(self.names, verdicts) if verdict != "right"}
+
+    def struck_out(self):
+        """Every case is expected to be right, and our routine may answer instead."""
+        quote = '"' if self.idiom == "gtest" else "'"
+        text = re.sub(EXPECTED[self.idiom], rf"\1{quote}right{quote}", self.text)
+        if self.idiom == "gtest":
+            text = text.replace("namespace {\n", HEADERS_CPP + "namespace {\n", 1)
+            text = text.replace(" protected:\n", " public:\n")
+            text = text.replace("template <int count>", RIGHT_CPP + "template <int count>", 1)
+            return text.replace("  Answer ask() override {",
+                                "  static constexpr bool is_capsule = IS_CAPSULE;\n"
+                                "  Answer ask() override {\n    if (std::getenv(\"RIGHT\")) return right_answer(*this);")
+        order = re.search(r"axisOf = \(\[(.*?)\]\)", text)[1]
+        text = text.replace("import test from", RIGHT_JS.replace("@order@", order) + "import test from", 1)
+        return text.replace("answer = ask(c);",
+                            "answer = process.env.RIGHT ? rightAnswer(c, ask.name) : ask(c);")
+
+    def made(self, text):
+        """The command that runs a file of this text."""
+        if self.idiom == "js":
+            program, package = re.search(r"npm install (\S+)@\S+ && node (\S+)", self.text).group(2, 1)
+            link = self.folder / "node_modules" / package
+            link.parent.mkdir(parents=True, exist_ok=True)
+            if not link.exists():
+                link.symlink_to(pathlib.Path(os.environ["TOUCHSTONE_NPM"]) / "node_modules" / package)
+            (self.folder / program).write_text(text)
+            return ["node", "--test-reporter=tap", program]
+        command = re.search(r"^// Compile  (.*)", self.text, re.MULTILINE)[1]
+        name = re.search(r"g\+\+ -O2 (\S+)", command)[1]
+        classes = re.split(r"(?=^class Cylinder)", text, flags=re.MULTILINE)
+        text = "".join(c.replace("IS_CAPSULE", str(c.startswith("class CylinderCapsule")).lower()) for c in classes)
+        (self.folder / name).write_text(text)
+        command = command.replace("-O2", "-O0")
+        if text != self.text:
+            library = pathlib.Path(self.program).parent / "reference/libtouchstone_reference.a"
+            command += f" -std=c++20 -I {self.source} {library}"
+        subprocess.run(command, shell=True, check=True, cwd=self.folder)
+        return ["./" + name.removesuffix(".cpp")]
+
+    def failures(self, command, **environment):
+        """Names of the tests that fail."""
+        environment = {**os.environ, "TOUCHSTONE": self.program, **environment}
+        result = subprocess.run(command, cwd=self.folder, capture_output=True, text=True, env=environment)
+        pattern = r"^\[  FAILED  \] (\w+\.\w+)" if self.idiom == "gtest" else r"^not ok \d+ - (\S+ \S+)"
+        failed = {name.replace(" ", ".") for name in re.findall(pattern, result.stdout, re.MULTILINE)}
+        assert (result.returncode != 0) == bool(failed), result.stdout + result.stderr
+        assert all(name in result.stdout for name in map(self.printed, self.names)), result.stdout
+        return failed
+
+    def printed(self, name):
+        return name if self.idiom == "gtest" else name.replace(".", " ")
+
+
+def main(program, source, idiom, engine, *options):
+    with tempfile.TemporaryDirectory() as folder:
+        file = File(os.path.abspath(program), source, idiom, engine, options, pathlib.Path(folder))
+        assert not (failed := file.failures(file.made(file.text))), f"as it is written: {failed}"
+        command = file.made(file.struck_out())
+        assert file.wrong, f"{engine} gets none of these wrong: {file.names}"
+        assert (failed := file.failures(command)) == file.wrong, (failed, file.wrong)
+        assert not (failed := file.failures(command, RIGHT="1")), f"our routine: {failed}"
+
+
+if __name__ == "__main__":
+    sys.exit(main(*sys.argv[1:]))
