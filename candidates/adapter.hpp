@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 
@@ -31,12 +32,15 @@ inline void begin(ts_answer& answer) {
   answer.point_count = 0;
 }
 
-/// Adds a contact point `distance` apart, negative inside, unless there is no room for it. The
-/// first of the deepest gives the answer's distance and normal.
+/// Adds a contact point `distance` apart, negative inside; where there is no room for it, in the
+/// place of the shallowest if that is less deep. The first of the deepest gives the answer's
+/// distance and normal.
 template <class Position, class Normal>
 void add_point(const Position& position, const Normal& normal, double distance, ts_answer& answer) {
-  if (answer.point_count == TOUCHSTONE_MAX_POINTS) return;
-  ts_point& point = answer.points[answer.point_count++];
+  const bool is_full = answer.point_count == TOUCHSTONE_MAX_POINTS;
+  ts_point& point = is_full ? *std::ranges::min_element(answer.points, {}, &ts_point::depth)
+                            : answer.points[answer.point_count++];
+  if (is_full && !(point.depth < -distance)) return;
   copy(position, point.position);
   copy(normal, point.normal);
   point.depth = -distance;
@@ -54,6 +58,11 @@ inline int supports_bounded(void* /*context*/, ts_shape_kind other) { return oth
 /// All but convex bodies.
 inline int supports_primitives(void* /*context*/, ts_shape_kind other) {
   return other != TS_CONVEX;
+}
+/// The half-space alone, and the box, too.
+inline int supports_plane(void* /*context*/, ts_shape_kind other) { return other == TS_PLANE; }
+inline int supports_flat(void* /*context*/, ts_shape_kind other) {
+  return other == TS_PLANE || other == TS_BOX;
 }
 template <class Prepared>
 void release(Prepared* prepared) {

@@ -20,8 +20,6 @@
 // Threshold    Passed as the function's margin. Only the plane answers separate bodies.
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
-#include <cstring>
 #include <limits>
 #include <map>
 #include <memory>
@@ -31,6 +29,7 @@
 #include <string>
 
 #include "candidates/adapter.hpp"
+#include "candidates/mujoco_library.hpp"
 #ifdef TOUCHSTONE_CURED
 #include "reference/engines/mujoco.hpp"
 #endif
@@ -80,15 +79,7 @@ mjModel* make_model(const ts_shape& other) {
                           (other.kind == TS_CONVEX ? "' mesh='b" : "' size='1 1 1") +
                           "'/><body><freejoint/><geom type='cylinder' size='1 1'/>"
                           "</body></worldbody></mujoco>";
-  const auto files = std::make_unique<mjVFS>();
-  mj_defaultVFS(files.get());
-  mj_makeEmptyFileVFS(files.get(), "pair.xml", static_cast<int>(xml.size()));
-  std::memcpy(files->filedata[0], xml.data(), xml.size());
-  char error[512] = "";
-  mjModel* const model = mj_loadXML("pair.xml", files.get(), error, sizeof error);
-  mj_deleteVFS(files.get());
-  if (!model) throw std::runtime_error(error);
-  return model;
+  return touchstone::load_mjcf(xml);
 }
 
 struct Scene {

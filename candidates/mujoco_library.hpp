@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstring>
+#include <memory>
+#include <mujoco/mujoco.h>
+#include <stdexcept>
+#include <string>
+
+namespace touchstone {
+
+/// The model of a text of MJCF. Throws std::runtime_error with what MuJoCo says against it.
+inline mjModel* load_mjcf(const std::string& xml) {
+  const auto files = std::make_unique<mjVFS>();
+  mj_defaultVFS(files.get());
+  mj_makeEmptyFileVFS(files.get(), "model.xml", static_cast<int>(xml.size()));
+  std::memcpy(files->filedata[0], xml.data(), xml.size());
+  char error[512] = "";
+  mjModel* const model = mj_loadXML("model.xml", files.get(), error, sizeof error);
+  mj_deleteVFS(files.get());
+  if (!model) throw std::runtime_error(error);
+  return model;
+}
+
+}  // namespace touchstone
