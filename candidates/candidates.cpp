@@ -26,8 +26,8 @@ constexpr struct {
     {"mujoco", "libmujoco-dev"}, {"simplified", ""},          {"box-parts", ""}};
 
 /// Candidates that are part of a report only if they are named, like engines from npm, and nothing
-/// is loaded before: our routines in single precision and engines whose cylinders are Touchstone's
-/// (reference/engines); and peers, engines that Debian does not have, which are built where CMake
+/// is loaded before: our routines in single precision, engines whose cylinders are Touchstone's
+/// (reference/engines), and floors of triangles (floor.hpp); and peers, engines that Debian does not have, which are built where CMake
 /// finds them, so that a default report is the same everywhere.
 constexpr struct {
   const char* name;
@@ -38,6 +38,14 @@ constexpr struct {
                        {"bullet-float+touchstone", "bullet-float+touchstone", false},
                        {"ode+touchstone", "ode+touchstone", false},
                        {"mujoco+touchstone", "mujoco+touchstone", false},
+                       {"bullet-floor", "bullet-floor", false},
+                       {"bullet-floor-edges", "bullet-floor", false},
+                       {"bullet-heights", "bullet-floor", false},
+                       {"bullet-heights-edges", "bullet-floor", false},
+                       {"ode-floor", "ode-floor", false},
+                       {"ode-heights", "ode-floor", false},
+                       {"fcl-floor", "fcl-floor", false},
+                       {"mujoco-heights", "mujoco-floor", false},
                        {"coal", "coal", true},
                        {"coal-patch", "coal", true},
                        {"jolt-native", "jolt-native", true},

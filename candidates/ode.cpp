@@ -18,7 +18,6 @@
 //              (reference/engines/ode.hpp), and the candidate is ode+touchstone.
 // Planes       A plane geom has no pose, so that a posed plane is transformed to world coordinates
 //              at every query.
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -26,11 +25,13 @@
 #include <ode/ode.h>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "candidates/adapter.hpp"
 #include "candidates/model.hpp"
 #include "candidates/ode_library.hpp"
+#include "candidates/ode_mesh.hpp"
 #ifdef TOUCHSTONE_CURED
 #include "reference/engines/ode.hpp"
 #endif
@@ -108,43 +109,29 @@ class Hull {
   std::vector<unsigned> polygons_;
 };
 
-/// The surface of a prism; ODE keeps pointers to the corners and indices.
-class Mesh {
- public:
-  /// `meets_hull`: ODE wants the angles between faces for that.
-  Mesh(int sides, double radius, double half_length, bool meets_hull)
-      : corners_(touchstone::RoundedPolytope::prism(sides, radius, half_length).vertices()),
-        data_(dGeomTriMeshDataCreate()) {
-    const auto n = static_cast<dTriIndex>(sides);
-    const auto add = [this](dTriIndex i, dTriIndex j, dTriIndex k) {
-      indices_.insert(indices_.end(), {i, j, k});
-    };
-    for (dTriIndex i = 0; i < n; ++i) {  // outside: counterclockwise
-      const dTriIndex next = (i + 1) % n;
-      add(i, next, next + n);
-      add(i, next + n, i + n);
-      if (i > 0 && next > 0) {
-        add(0, next, i);
-        add(n, i + n, next + n);
-      }
-    }
-    dGeomTriMeshDataBuildDouble(data_, corners_.data(), sizeof(touchstone::Vec3),
-                                static_cast<int>(corners_.size()), indices_.data(),
-                                static_cast<int>(indices_.size()), 3 * sizeof(dTriIndex));
-    if (meets_hull) {
-      dGeomTriMeshDataPreprocess2(data_, 1u << dTRIDATAPREPROCESS_BUILD_FACE_ANGLES, nullptr);
+/// The surface of a prism, which may meet a convex body.
+std::unique_ptr<touchstone::OdeMesh> make_prism(int sides, double radius, double half_length,
+                                                bool meets_hull) {
+  std::vector<dTriIndex> indices;
+  const auto n = static_cast<dTriIndex>(sides);
+  const auto add = [&](dTriIndex i, dTriIndex j, dTriIndex k) {
+    indices.insert(indices.end(), {i, j, k});
+  };
+  for (dTriIndex i = 0; i < n; ++i) {
+    const dTriIndex next = (i + 1) % n;
+    add(i, next, next + n);
+    add(i, next + n, i + n);
+    if (i > 0 && next > 0) {
+      add(0, next, i);
+      add(n, i + n, next + n);
     }
   }
-  ~Mesh() { dGeomTriMeshDataDestroy(data_); }
-  Mesh(const Mesh&) = delete;
-  Mesh& operator=(const Mesh&) = delete;
-  dGeomID make_geom() const { return dCreateTriMesh(nullptr, data_, nullptr, nullptr, nullptr); }
-
- private:
-  std::vector<touchstone::Vec3> corners_;
-  std::vector<dTriIndex> indices_;
-  dTriMeshDataID data_;
-};
+  auto mesh = std::make_unique<touchstone::OdeMesh>(
+      touchstone::RoundedPolytope::prism(sides, radius, half_length).vertices(),
+      std::move(indices));
+  if (meets_hull) mesh->find_angles();
+  return mesh;
+}
 
 }  // namespace
 
@@ -156,12 +143,12 @@ struct ts_prepared {
   ts_prepared(const ts_shape& a, const ts_shape& b, int sides)
       : shape_b_(b),
         hull_(hull_of(b)),
-        mesh_(std::make_unique<Mesh>(sides, a.size[0], a.size[1], b.kind == TS_CONVEX)),
+        mesh_(make_prism(sides, a.size[0], a.size[1], b.kind == TS_CONVEX)),
         model_(std::in_place, a, b,
                [sides](double radius, double half_length) {
                  return touchstone::inscribed_prism(sides, radius, half_length);
                }),
-        a_(mesh_->make_geom()),
+        a_(mesh_->make_geom(nullptr)),
         b_(geom_of_b()) {}
   ~ts_prepared() {
     dGeomDestroy(a_);
@@ -182,11 +169,6 @@ struct ts_prepared {
     dContactGeom contacts[max_contacts];
     const int count = dCollide(a_, b_, mesh_ ? max_contacts : TOUCHSTONE_MAX_POINTS, contacts,
                                sizeof(dContactGeom));
-    if (count > TOUCHSTONE_MAX_POINTS) {
-      std::partial_sort(
-          contacts, contacts + TOUCHSTONE_MAX_POINTS, contacts + count,
-          [](const dContactGeom& x, const dContactGeom& y) { return x.depth > y.depth; });
-    }
     touchstone::adapter::begin(answer);
     for (const dContactGeom& c : std::span(contacts, static_cast<std::size_t>(count))) {
       touchstone::adapter::add_point(c.pos, c.normal, -c.depth, answer);
@@ -222,7 +204,7 @@ struct ts_prepared {
 
   ts_shape shape_b_;
   std::unique_ptr<Hull> hull_;  ///< B as a convex body; else null
-  std::unique_ptr<Mesh> mesh_;
+  std::unique_ptr<touchstone::OdeMesh> mesh_;
   std::optional<touchstone::ModelPair> model_;
   dGeomID a_, b_;
 };
