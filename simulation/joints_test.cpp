@@ -108,6 +108,21 @@ TEST_P(Joints, MotorsMoveTheFirstBodyRelativeToTheSecondWhicheverIsFixed) {
   }
 }
 
+TEST_P(Joints, AMotorLeavesTheLimitWhereItBeginsAtItsRate) {
+  for (const JointKind kind : {JointKind::hinge, JointKind::slider}) {
+    SCOPED_TRACE(joint_kind_name(kind));
+    const MotorScene motor{kind, "b"};
+    Scene scene = motor.scene();
+    scene.duration = 0.1;
+    scene.joints[0].motor = rate(0.1, motor.force());
+    scene.joints[0].lower = 0;
+    scene.joints[0].upper = 1;
+    for (const States& states : run(scene)) {
+      EXPECT_LT(states[0].velocity.z() + states[0].angular_velocity.z(), 0.15);
+    }
+  }
+}
+
 TEST_P(Joints, HingesKeepTheirLimitsBeyondHalfATurn) {
   const double near_limit = is_mujoco() ? 0.05 : 0.02;  // rad; MuJoCo's limits are soft
   for (const auto& limits : far_limits) {

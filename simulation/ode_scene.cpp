@@ -8,6 +8,11 @@
 namespace touchstone {
 namespace {
 
+/// By this much the stops lie beyond the limits, rad or m: at a stop ODE pushes a motor's whole
+/// force into the bodies where it should lead them away at a rate, and joints begin at their
+/// limits.
+constexpr double stop_slack = 1e-6;
+
 /// ODE's shape of a body, in the body's frame.
 struct MakeGeom {
   dSpaceID space;
@@ -89,16 +94,17 @@ OdeJoint::OdeJoint(dWorldID world, const Joint& joint, dBodyID a, dBodyID b) : j
   made_ = dJointCreateSlider(world, nullptr);
   dJointAttach(made_, a, b);
   dJointSetSliderAxis(made_, axis.x(), axis.y(), axis.z());
-  dJointSetSliderParam(made_, dParamLoStop, joint.lower);
-  dJointSetSliderParam(made_, dParamHiStop, joint.upper);
+  dJointSetSliderParam(made_, dParamLoStop, joint.lower - stop_slack);
+  dJointSetSliderParam(made_, dParamHiStop, joint.upper + stop_slack);
 }
 
 /// ODE compares an angle in [−π, π) with the stops, and only while one of them is at most half a
 /// turn from 0 and they are in order. At an upper one of π it never is.
 void OdeJoint::set_hinge_stops(double turns) {
   if (std::isinf(joint_.lower) && std::isinf(joint_.upper)) return;
-  const double lower = joint_.lower - turns;
-  const double upper = std::max(lower, std::min(joint_.upper - turns, std::numbers::pi));
+  const double lower = joint_.lower - stop_slack - turns;
+  const double upper =
+      std::max(lower, std::min(joint_.upper + stop_slack - turns, std::numbers::pi));
   dJointSetHingeParam(made_, dParamLoStop, lower);
   dJointSetHingeParam(made_, dParamHiStop, upper);
 }
