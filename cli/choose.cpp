@@ -63,7 +63,7 @@ SceneFile scene_of(ChooseArguments& options) {
   if (!is_robot_file(options.scene)) return file;
   if (!options.engine.empty()) {
     describe_engine(options.engine);  // which has to be there
-    check_engine_scene(options.engine, file.scene);
+    check_engine_choice(options.engine, file.scene);
   }
   const Trials trials = options.trials;
   const unsigned workers = options.workers.get();

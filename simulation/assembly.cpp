@@ -5,8 +5,6 @@
 #include <numeric>
 #include <utility>
 
-#include <Eigen/Eigenvalues>
-
 namespace touchstone {
 namespace {
 
@@ -44,11 +42,9 @@ void join(const Scene& scene, Assembly& assembly) {
     sum += r * i.principal.asDiagonal() * r.transpose();
     sum += i.mass * (arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose());
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(sum);
-  Eigen::Matrix3d axes = principal.eigenvectors();
-  if (axes.determinant() < 0) axes.col(0) *= -1;
-  assembly.inertia = {mass, principal.eigenvalues()};
-  assembly.X_WF = Pose(centre, Eigen::Quaterniond(axes));
+  const PosedInertia joined = along_principal_axes(mass, centre, sum);
+  assembly.inertia = joined.inertia;
+  assembly.X_WF = joined.X_BC;
 }
 
 }  // namespace
@@ -96,7 +92,8 @@ std::vector<Assembly> assemblies(const Scene& scene) {
     const int first_body = assembly.bodies.front();
     const Body& lead = scene.bodies[assembly.driven < 0 ? first_body : assembly.driven];
     assembly.X_WF = lead.pose;
-    const bool is_uniform = assembly.bodies.size() == 1 && !lead.inertia;
+    const bool is_uniform =
+        assembly.bodies.size() == 1 && !lead.inertia && !std::holds_alternative<Convex>(lead.shape);
     if (assembly.is_free()) {
       assembly.inertia = inertia(lead).inertia;
       if (!is_uniform) join(scene, assembly);

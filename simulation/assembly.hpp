@@ -9,8 +9,8 @@ namespace touchstone {
 
 /// Bodies that fixed joints make one rigid body; most often a single body, and always where the
 /// world holds it. Its frame F has its origin in the centre of mass and its axes along the
-/// principal ones: of a single body, its own unless its inertia is given. Of bodies that forces do
-/// not move it is that of the driven or the first one.
+/// principal ones: of a single body, its own unless its inertia is given or it is a hull. Of bodies
+/// that forces do not move it is that of the driven or the first one.
 struct Assembly {
   std::vector<int> bodies;              ///< ascending indices
   bool fixed = false;                   ///< to the world

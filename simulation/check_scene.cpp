@@ -44,10 +44,16 @@ void check_shape(const std::string& field, const Body& body) {
     check_between(field + ".displacement", plane->unit_displacement(), -max_in_world, max_in_world);
     return;
   }
-  if (std::holds_alternative<Convex>(body.shape)) refuse_convex();
   if (const double rounding = rounding_of(body.shape); rounding > 0) {
     throw InvalidInput(field + ".rounding", fmt::format("{}", rounding),
                        "must be left out: bodies of scenes have sharp edges");
+  }
+  if (const auto* hull = std::get_if<Convex>(&body.shape)) {
+    const double off = hull->middle().cwiseAbs().maxCoeff();
+    if (!(off <= max_in_world)) {
+      throw InvalidInput(field + ".vertices", fmt::format("{} m from the body's origin", off),
+                         fmt::format("must be at most {} m from it", max_in_world));
+    }
   }
   const double smallest = smallest_half_extent(body.shape);
   const double largest = largest_half_extent(body.shape);
@@ -56,7 +62,7 @@ void check_shape(const std::string& field, const Body& body) {
                        fmt::format("must be from {} to {} m", min_half_width, max_in_world));
   }
   if (!body.is_free() || body.inertia) return;
-  const Vec3 moments = inertia(body.shape, body.density).principal;
+  const Vec3 moments = inertia(body.shape, body.density).inertia.principal;
   if (!(moments.minCoeff() >= min_inertia_ratio * moments.maxCoeff())) {
     throw InvalidInput(field, fmt::format("{} to {} m in half width", smallest, largest),
                        "must be thicker for its length to be turned");
@@ -150,9 +156,11 @@ void check_body(const std::string& field, const Body& body) {
     std::visit(CheckDrive{field + ".drive", body.pose}, *body.drive);
   }
   check_shape(field + ".shape", body);
-  if (!body.fixed && inertia(body.shape, 1).mass == 0) {
-    throw InvalidInput(field + ".fixed", "false",
-                       fmt::format("a {} has no mass and must be fixed", shape_name(body.shape)));
+  if (!body.fixed && inertia(body.shape, 1).inertia.mass == 0) {
+    const char* const flat = std::holds_alternative<Convex>(body.shape) ? "flat " : "";
+    throw InvalidInput(
+        field + ".fixed", "false",
+        fmt::format("a {}{} has no mass and must be fixed", flat, shape_name(body.shape)));
   }
 }
 

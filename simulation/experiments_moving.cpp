@@ -63,7 +63,7 @@ const Cylinder coin(0.5, 0.02);
 const double coin_lean = radians(25);
 
 double coin_rate(double lean) {
-  const Inertia i = inertia(coin, steel);
+  const Inertia i = inertia(coin, steel).inertia;
   const double r = coin.radius(), h = coin.half_length(), s = std::sin(lean), c = std::cos(lean);
   return std::sqrt(i.mass * gravity * (r * c - h * s) /
                    (s * (i.principal.x() * c - i.principal.z() * h / r * s)));

@@ -20,7 +20,7 @@ Body ground() { return fixed({.name = "ground", .shape = Plane(Vec3::UnitZ(), 0)
 Joint slider(int a, int b, const Vec3& axis) {
   return {"slider", JointKind::slider, a, b, Vec3::Zero(), axis};
 }
-double mass_of(const Body& body) { return inertia(body.shape, body.density).mass; }
+double mass_of(const Body& body) { return inertia(body.shape, body.density).inertia.mass; }
 
 using Joints = EachWorld;
 INSTANTIATE_TEST_SUITE_P(Each, Joints, testing::ValuesIn(Joints::all()), Joints::plain_name);
@@ -40,7 +40,7 @@ TEST_P(Joints, AHingedBoxSwingsWithThePeriodOfAPhysicalPendulum) {
     if (hangs_on_world) scene.bodies.pop_back();
     const auto x = [](const States& s) { return s[0].pose.position().x(); };
     const std::vector<States> swing = run(scene);
-    const Inertia i = inertia(scene.bodies[0].shape, 1000);
+    const Inertia i = inertia(scene.bodies[0].shape, 1000).inertia;
     const double omega = std::sqrt(i.mass * earth_gravity * l / (i.principal.y() + i.mass * l * l));
     EXPECT_NEAR(zero_crossing(swing, scene, x), pi / 2 / omega, is_ours() ? 2e-3 : 3e-3);
     // Back at the end that it came from after a whole period, and not farther.
@@ -72,7 +72,7 @@ struct MotorScene {
   /// As strong as an acceleration of 50 m/s² or rad/s² of the first body asks for; MuJoCo's limits
   /// yield to more.
   double force() const {
-    const Inertia i = inertia(scene().bodies[0].shape, 1000);
+    const Inertia i = inertia(scene().bodies[0].shape, 1000).inertia;
     return 50 * (kind == JointKind::hinge ? i.principal.z() : i.mass);
   }
   /// Angle or way of the first body relative to the second, or to the world.
@@ -173,7 +173,7 @@ TEST_P(Joints, APushHasItsImpulseWhateverTheStep) {
   Scene scene;
   scene.gravity = Vec3::Zero();
   scene.bodies = {box("a", Vec3::Constant(0.1), Pose())};
-  const Inertia i = inertia(scene.bodies[0].shape, 1000);
+  const Inertia i = inertia(scene.bodies[0].shape, 1000).inertia;
   const double near = is_single() ? 1e-6 : 1e-12, near_turn = is_single() ? 1e-5 : 1e-12;
   for (const auto& [from, until] : {std::pair{0.1005, 0.1006},
                                     {0.0999, 0.1001},
@@ -282,7 +282,7 @@ TEST_P(Joints, AWheelsetRollsAsOneBody) {
                                          {"right", radius, 0.02, -0.2}}) {
     scene.bodies.push_back(
         {.name = name, .shape = Cylinder(r, half), .pose = Pose(Vec3(0, y, radius), lying)});
-    const Inertia i = inertia(scene.bodies.back().shape, 1000);
+    const Inertia i = inertia(scene.bodies.back().shape, 1000).inertia;
     mass += i.mass, moment += i.principal.z();
   }
   scene.joints = {rigid(1, 2), rigid(3, 2)};
@@ -432,7 +432,7 @@ Scene gripper(double squeeze) {
 
 TEST_P(Joints, AGripperHoldsACanByFrictionIfItSqueezesHardEnough) {
   // Friction 0.5 at two fingers must carry the weight.
-  const double weight = earth_gravity * inertia(Cylinder(0.03, 0.06), 500).mass;
+  const double weight = earth_gravity * inertia(Cylinder(0.03, 0.06), 500).inertia.mass;
   const auto height = [&](double squeeze, bool has_best_solver) {
     return end(gripper(squeeze), has_best_solver)[3].pose.position().z();
   };

@@ -88,7 +88,7 @@ TEST(AssemblyTest, TwoHalvesOfABoxAreTheBox) {
   scene.joints = {rigid(1, 0)};
   const auto all = assemblies(scene);
   ASSERT_EQ(all.size(), 1);
-  const Inertia whole = inertia(Box(Vec3(0.6, 0.2, 0.1)), 1000);
+  const Inertia whole = inertia(Box(Vec3(0.6, 0.2, 0.1)), 1000).inertia;
   EXPECT_NEAR(all[0].inertia.mass, whole.mass, 1e-12 * whole.mass);
   EXPECT_LT((all[0].X_WF.position() - middle.position()).norm(), 1e-15);
   const Eigen::Matrix3d axes = all[0].X_WF.rotation();

@@ -16,6 +16,7 @@ constexpr double stop_slack = 1e-6;
 /// ODE's shape of a body, in the body's frame.
 struct MakeGeom {
   dSpaceID space;
+  OdeMeshes& meshes;
 
   dGeomID operator()(const Cylinder& s) const {
     return dCreateCylinder(space, s.radius(), 2 * s.half_length());
@@ -31,7 +32,7 @@ struct MakeGeom {
     const Vec3 side = 2 * s.half_extents();
     return dCreateBox(space, side.x(), side.y(), side.z());
   }
-  dGeomID operator()(const Convex&) const { refuse_convex(); }
+  dGeomID operator()(const Convex& s) const { return meshes.make(space, s); }
 };
 
 /// The posed plane in world coordinates.
@@ -61,11 +62,29 @@ dBodyID make_ode_body(dWorldID world, const Assembly& assembly) {
   return made;
 }
 
-dGeomID make_ode_geom(dSpaceID space, const Shape& shape, dBodyID moving, const Pose& pose) {
-  if (const auto* plane = std::get_if<Plane>(&shape)) {
-    return MakeGeom{space}(in_world(*plane, pose));
+OdeMeshes::~OdeMeshes() {
+  for (const Mesh& mesh : meshes_) dGeomTriMeshDataDestroy(mesh.data);
+}
+
+dGeomID OdeMeshes::make(dSpaceID space, const Convex& hull) {
+  Mesh& mesh = meshes_.emplace_back(Mesh{hull, {}, dGeomTriMeshDataCreate()});
+  for (const Convex::Face& face : hull.faces()) {
+    const auto corner = [&](std::size_t i) { return static_cast<dTriIndex>(face.vertices[i]); };
+    for (std::size_t i = 2; i < face.vertices.size(); ++i) {
+      mesh.corners.insert(mesh.corners.end(), {corner(0), corner(i - 1), corner(i)});
+    }
   }
-  const dGeomID made = std::visit(MakeGeom{space}, shape);
+  dGeomTriMeshDataBuildDouble(mesh.data, mesh.hull.vertices().data(), sizeof(Vec3),
+                              static_cast<int>(mesh.hull.vertices().size()), mesh.corners.data(),
+                              static_cast<int>(mesh.corners.size()), 3 * sizeof(dTriIndex));
+  return dCreateTriMesh(space, mesh.data, nullptr, nullptr, nullptr);
+}
+
+dGeomID make_ode_geom(dSpaceID space, const Shape& shape, dBodyID moving, const Pose& pose,
+                      OdeMeshes& meshes) {
+  const MakeGeom make{space, meshes};
+  if (const auto* plane = std::get_if<Plane>(&shape)) return make(in_world(*plane, pose));
+  const dGeomID made = std::visit(make, shape);
   const Vec3& p = pose.position();
   if (!moving) {
     dGeomSetPosition(made, p.x(), p.y(), p.z());

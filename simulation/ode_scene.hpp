@@ -1,6 +1,7 @@
 #pragma once
 
 #include <ode/ode.h>
+#include <vector>
 
 #include "simulation/assembly.hpp"
 
@@ -18,9 +19,31 @@ struct OdeQuaternion {
 /// fixed.
 dBodyID make_ode_body(dWorldID world, const Assembly& assembly);
 
+/// Hulls as meshes of triangles: ODE's convex geoms end the process where two of them touch. Must
+/// outlive its geoms.
+class OdeMeshes {
+ public:
+  OdeMeshes() = default;
+  ~OdeMeshes();
+  OdeMeshes(const OdeMeshes&) = delete;
+  OdeMeshes& operator=(const OdeMeshes&) = delete;
+
+  dGeomID make(dSpaceID space, const Convex& hull);
+
+ private:
+  /// ODE keeps pointers to the hull's vertices and to the corners of the triangles.
+  struct Mesh {
+    Convex hull;
+    std::vector<dTriIndex> corners;
+    dTriMeshDataID data;
+  };
+  std::vector<Mesh> meshes_;
+};
+
 /// Geometry at a pose in the frame of `moving`, or in the world if that is null. A plane is made in
 /// world coordinates: ODE's have no pose.
-dGeomID make_ode_geom(dSpaceID space, const Shape& shape, dBodyID moving, const Pose& pose);
+dGeomID make_ode_geom(dSpaceID space, const Shape& shape, dBodyID moving, const Pose& pose,
+                      OdeMeshes& meshes);
 
 /// A hinge or slider of two bodies at their initial poses, of which one may be null. ODE knows the
 /// angle of a hinge within a turn, and its stops must lie there; this one counts the turns.

@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-#include "reference/invalid_input.hpp"
+#include <Eigen/Eigenvalues>
 
 namespace touchstone {
 namespace {
@@ -12,7 +12,7 @@ using std::numbers::pi;
 struct InertiaOf {
   double density;
 
-  /// For any other shape.
+  /// For a plane, which has none; of a hull see inertia_of_hull.
   template <class Massless>
   Inertia operator()(const Massless&) const {
     return {0, Vec3::Zero()};
@@ -41,22 +41,50 @@ struct InertiaOf {
     const double mass = density * 8 * h.prod();
     return {mass, mass / 3 * (Vec3::Constant(squared.sum()) - squared)};
   }
-  Inertia operator()(const Convex&) const { refuse_convex(); }
 };
+
+/// Sum of the tetrahedra between the hull's middle and the triangles of its faces. One with the
+/// edges a, b, c has a sixth of their determinant V as its volume, its centre at s/4 and the second
+/// moments V/20 (s sᵀ + a aᵀ + b bᵀ + c cᵀ), with s = a + b + c.
+PosedInertia inertia_of_hull(const Convex& hull, double density) {
+  double volume = 0;
+  Vec3 first = Vec3::Zero();
+  Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
+  const auto edge = [&](int vertex) { return Vec3(hull.vertices()[vertex] - hull.middle()); };
+  for (const Convex::Face& face : hull.faces()) {
+    const Vec3 a = edge(face.vertices[0]);
+    for (std::size_t i = 2; i < face.vertices.size(); ++i) {
+      const Vec3 b = edge(face.vertices[i - 1]), c = edge(face.vertices[i]), sum = a + b + c;
+      const double part = a.dot(b.cross(c)) / 6;
+      volume += part;
+      first += part / 4 * sum;
+      second += part / 20 *
+                (sum * sum.transpose() + a * a.transpose() + b * b.transpose() + c * c.transpose());
+    }
+  }
+  if (hull.is_flat() || !(volume > 0)) return {{0, Vec3::Zero()}};
+  const Vec3 centre = first / volume;
+  const Eigen::Matrix3d spread = second - volume * centre * centre.transpose();
+  return along_principal_axes(density * volume, hull.middle() + centre,
+                              density * (spread.trace() * Eigen::Matrix3d::Identity() - spread));
+}
 
 }  // namespace
 
-Inertia inertia(const Shape& shape, double density) {
-  return std::visit(InertiaOf{density}, shape);
+PosedInertia inertia(const Shape& shape, double density) {
+  if (const auto* hull = std::get_if<Convex>(&shape)) return inertia_of_hull(*hull, density);
+  return {std::visit(InertiaOf{density}, shape)};
+}
+
+PosedInertia along_principal_axes(double mass, const Vec3& centre, const Eigen::Matrix3d& moments) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(moments);
+  Eigen::Matrix3d axes = principal.eigenvectors();
+  if (axes.determinant() < 0) axes.col(0) *= -1;
+  return {{mass, principal.eigenvalues()}, Pose(centre, Eigen::Quaterniond(axes))};
 }
 
 PosedInertia inertia(const Body& body) {
-  return body.inertia ? *body.inertia : PosedInertia{inertia(body.shape, body.density)};
-}
-
-void refuse_convex() {
-  throw InvalidInput("shape", "\"convex\"",
-                     "must be a plane, sphere, capsule, cylinder or box: scenes have no hulls");
+  return body.inertia ? *body.inertia : inertia(body.shape, body.density);
 }
 
 const char* impossible(const Vec3& principal) {

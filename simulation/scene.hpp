@@ -36,7 +36,8 @@ struct PosedInertia {
   Pose X_BC = {};  ///< of that frame, in the body's frame
 };
 
-/// A rigid body and its initial state. Its centre is that of its shape, wherever its mass is.
+/// A rigid body and its initial state. Its centre is the origin of its shape's frame, wherever its
+/// mass is.
 /// Velocities: of the centre, world frame.
 struct Body {
   std::string name;
@@ -85,19 +86,20 @@ inline constexpr double max_friction = 1e6;  ///< Coulomb's coefficient
 /// simulated: ODE ends the process where a product of its inputs overflows or vanishes.
 void check_scene(const Scene& scene);
 
-/// Inertia of a solid shape of uniform density about its centre, along its own axes, in closed
-/// form; zeros for a plane, as for any shape without a formula here.
-Inertia inertia(const Shape& shape, double density);
+/// Inertia of a solid shape of uniform density, in closed form; zeros for a plane and a flat hull.
+/// Its frame is the shape's own, but for a hull, of which the mass may lie anywhere.
+PosedInertia inertia(const Shape& shape, double density);
 
 /// A body's inertia: the given one, or that of its shape at its density.
 PosedInertia inertia(const Body& body);
 
+/// A mass with these moments and products of inertia about axes through its centre, as lies in the
+/// frame to which these are parallel.
+PosedInertia along_principal_axes(double mass, const Vec3& centre, const Eigen::Matrix3d& moments);
+
 /// Why no body has these principal moments, as "not positive"; null if there can be one. The
 /// largest may exceed the sum of the others (triangle inequality) by a rounding to two digits.
 const char* impossible(const Vec3& principal);
-
-/// Throws InvalidInput: nothing that moves is a hull.
-[[noreturn]] void refuse_convex();
 
 /// Pose and velocities of a body at one time.
 struct BodyState {

@@ -68,6 +68,7 @@ struct World::State {
   dJointGroupID contact_joints;
   std::vector<Moving> moving;
   std::vector<std::size_t> assembly_of;  ///< by body: index of its assembly
+  OdeMeshes meshes;                      ///< of the geoms
   std::vector<dGeomID> geoms;            ///< by body; null where it is a cylinder
   std::vector<BodyState> states;         ///< by body
   std::vector<OdeJoint> joints;          ///< hinges and sliders
@@ -127,7 +128,8 @@ void World::State::make_assembly(const Assembly& assembly) {
     assembly_of[b] = moving.size() - 1;
     if (std::holds_alternative<Cylinder>(scene.bodies[b].shape)) continue;
     const Body& made = scene.bodies[b];
-    geoms[b] = make_ode_geom(nullptr, made.shape, body, body ? assembly.X_FB[i] : made.pose);
+    geoms[b] =
+        make_ode_geom(nullptr, made.shape, body, body ? assembly.X_FB[i] : made.pose, meshes);
   }
   place_bodies(moving.back());
 }
@@ -239,7 +241,7 @@ void World::State::add_contacts(const PairContact& contact) {
 }
 
 void World::State::add_ode_contacts(int a, int b) {
-  constexpr int max_points = 16;
+  constexpr int max_points = 256;  // a hull has one at each corner that is in a plane
   dContactGeom found[max_points];
   const int count = dCollide(geoms[a], geoms[b], max_points, found, sizeof(dContactGeom));
   for (int i = 0; i < count; ++i) add_joint(a, b, found[i]);

@@ -31,6 +31,7 @@ function meshOf(s, near, reach, segments = 48) {
     case 'box': return boxMesh(s);
     case 'plane': return planeMesh(s, near, reach);
     case 'prism': return prismMesh(s);
+    case 'convex': return convexMesh(s);
     default: return capsuleMesh(s, near, segments);  // a sphere is a capsule of no length
   }
 }
@@ -113,6 +114,12 @@ function boxMesh({half_extents: h}) {
       normals.push([0, 1, 2].map(i => i === k ? s : 0));
     }
   }
+  return {faces, normals, edges: faces.map(f => [...f, f[0]]), stripe: faces.map(() => false)};
+}
+// A polyhedron whose faces are lists of indices of its vertices.
+function convexMesh({vertices, faces: indices}) {
+  const faces = indices.map(f => f.map(i => vertices[i]));
+  const normals = faces.map(([a, b, c]) => unit(cross(add(b, a, -1), add(c, a, -1))));
   return {faces, normals, edges: faces.map(f => [...f, f[0]]), stripe: faces.map(() => false)};
 }
 // A regular prism with its corners on the circle of its radius.

@@ -143,8 +143,12 @@ nlohmann::json bodies_json(const Scene& scene) {
   nlohmann::json bodies = nlohmann::json::array();
   for (const Body& b : scene.bodies) {
     const auto& q = b.pose.orientation();
+    nlohmann::json shape = to_json(b.shape);
+    if (const auto* hull = std::get_if<Convex>(&b.shape)) {
+      for (const Convex::Face& face : hull->faces()) shape["faces"].push_back(face.vertices);
+    }
     bodies.push_back({{"name", b.name},
-                      {"shape", to_json(b.shape)},
+                      {"shape", std::move(shape)},
                       {"fixed", b.fixed},
                       {"pose",
                        {{"position", to_json(b.pose.position())},

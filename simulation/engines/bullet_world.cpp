@@ -7,8 +7,9 @@
 //           friction along two directions instead of the slip's alone.
 // Shapes    btCylinderShapeZ, btBoxShape, btCapsuleShapeZ, btSphereShape with Bullet's default
 //           margins; btStaticPlaneShape.
-//           A hull is a btConvexHullShape with margin 0: its margin, 0.04 whatever its size, would
-//           be added outside it; that of a cylinder lies inside it and rounds its edges. Spheres,
+//           A hull, and a convex body, is a btConvexHullShape with margin 0: its margin, 0.04
+//           whatever its size, would be added outside it; that of a cylinder lies inside it and
+//           rounds its edges. Spheres,
 //           and bodies that fixed joints connect, are children of a btCompoundShape.
 // Masses    Inertia of the exact bodies. Bullet multiplies the friction and the restitution of two
 //           bodies, so that each gets the square root of ours: together they have the geometric
@@ -73,7 +74,7 @@ struct MakeShape {
   Made operator()(const Box& s) const {
     return std::make_unique<btBoxShape>(to_vector(s.half_extents()));
   }
-  Made operator()(const Convex&) const { refuse_convex(); }
+  Made operator()(const Convex&) const { return nullptr; }  // a piece with corners
 };
 
 /// Margin 0: Bullet's default is added outside a hull.

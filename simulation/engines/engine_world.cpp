@@ -21,6 +21,9 @@ Piece piece_of(RoundedPolytope part) {
 }  // namespace
 
 std::vector<Piece> pieces(const Body& body, const EngineShape& engine_shape) {
+  if (const auto* hull = std::get_if<Convex>(&body.shape)) {
+    return {{body.shape, Vec3::Zero(), hull->vertices()}};
+  }
   const auto* c = std::get_if<Cylinder>(&body.shape);
   if (!c) return {{body.shape}};
   const auto [kind, count] = engine_shape;

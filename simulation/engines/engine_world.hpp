@@ -19,7 +19,7 @@ namespace touchstone {
 struct Piece {
   Shape shape;
   Vec3 centre = Vec3::Zero();      ///< in the body's frame
-  std::vector<Vec3> corners = {};  ///< of a hull, which it is instead of the shape
+  std::vector<Vec3> corners = {};  ///< of a hull, be the shape convex or what the hull replaces
 };
 
 /// What stands for a body: its own shape, or what replaces a cylinder.

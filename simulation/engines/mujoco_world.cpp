@@ -7,7 +7,8 @@
 //           At its best: as hard as the step allows (solref two steps, solimp 0.99 0.999),
 //           elliptic cones, impratio 10.
 // Shapes    cylinder, box, capsule, sphere with half lengths; a plane is infinite. A hull is a mesh
-//           asset. Spheres, and bodies that fixed joints connect, are several geoms of one body.
+//           asset, and so is a convex body that is not flat. Spheres, and bodies that fixed joints
+//           connect, are several geoms of one body.
 // Masses    Inertia of the exact bodies. MuJoCo takes the larger friction of two bodies.
 // Joints    The tree of MuJoCo's users (SceneXml): hinge and slide, with limits as soft as
 //           contacts. What may touch is decided in mjcb_contactfilter.
@@ -67,7 +68,7 @@ struct GeomXml {
     const Vec3& h = s.half_extents();
     return fmt::format("type='box' size='{} {} {}'", h.x(), h.y(), h.z()) + pose_xml(X_FB);
   }
-  std::string operator()(const Convex&) const { refuse_convex(); }
+  std::string operator()(const Convex&) const { return ""; }  // a piece with corners
 };
 
 /// Options and defaults of a world whose contacts are as hard as the step allows: by MuJoCo's
@@ -145,7 +146,7 @@ class SceneXml {
     Inertia i = assembly.inertia;
     if (!assembly.is_free()) {
       const Body& body = scene_.bodies[assembly.driven];
-      const Inertia one = inertia(body.shape, 1);
+      const Inertia one = inertia(body.shape, 1).inertia;
       i.mass = driven_mass_ratio * std::max(mass_, 1.0);
       i.principal.setConstant(i.mass / one.mass * one.principal.maxCoeff());
     }

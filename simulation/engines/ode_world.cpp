@@ -8,7 +8,8 @@
 //           pyramid (dContactApprox1), for without that flag a coefficient is a force; its
 //           directions are ODE's own. Two bodies have the geometric mean of their friction.
 // Shapes    dCreateCylinder and so on (ode_scene.hpp); a plane has no pose and is made in world
-//           coordinates. Spheres are several geoms of one body, as are bodies that fixed joints
+//           coordinates; a convex body is a mesh of triangles, which misses some of a cylinder's
+//           contacts. Spheres are several geoms of one body, as are bodies that fixed joints
 //           connect.
 // Joints    Hinges and sliders with stops and motors (dParamVel, dParamFMax), as in our own world,
 //           which counts a hinge's turns.
@@ -97,7 +98,8 @@ class OdeWorld : public EngineWorld {
       const Body& body = scene_.bodies[assembly.bodies[i]];
       const Pose& at = made ? assembly.X_FB[i] : body.pose;
       for (const Piece& piece : pieces(assembly.bodies[i])) {
-        const dGeomID geom = make_ode_geom(space_, piece.shape, made, shifted(at, piece.centre));
+        const dGeomID geom =
+            make_ode_geom(space_, piece.shape, made, shifted(at, piece.centre), meshes_);
         dGeomSetData(geom, const_cast<Body*>(&body));
       }
     }
@@ -132,6 +134,7 @@ class OdeWorld : public EngineWorld {
   dWorldID world_;
   dSpaceID space_;
   dJointGroupID contacts_;
+  OdeMeshes meshes_;
   std::vector<dBodyID> bodies_;                  ///< by assembly; null where it is fixed
   std::vector<std::optional<OdeJoint>> joints_;  ///< by joint; none where it is fixed
   int points_ = 0;

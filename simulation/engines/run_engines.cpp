@@ -126,6 +126,12 @@ void check_engine_scene(const std::string& engine, const Scene& scene) {
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const Body& body = scene.bodies[i];
     const std::string path = fmt::format("bodies[{}]", i);
+    constexpr double smallest_volume = 1e-15;  // mjMINVAL
+    if (std::holds_alternative<Convex>(body.shape) &&
+        !(inertia(body.shape, 1).inertia.mass > smallest_volume)) {
+      refuse(path + ".shape", "flat, or too small",
+             "convex bodies with a volume of more than 1e-15 m³");
+    }
     if (!body.surface_velocity.isZero(0)) {
       refuse(path + ".surface_velocity", "not zero", "no moving surfaces");
     }

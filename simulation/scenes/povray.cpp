@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "properties/files/disk.hpp"
-#include "reference/invalid_input.hpp"
 #include "simulation/scenes/scene_file.hpp"
 
 namespace touchstone {
@@ -47,6 +46,8 @@ std::string view(const Camera& camera) {
 struct Object {
   bool fixed;
 
+  const char* plain() const { return fixed ? "Plain(<0.5,0.52,0.55>)" : "Plain(<0.7,0.55,0.3>)"; }
+
   std::string operator()(const Cylinder& s) const {
     return fmt::format("cylinder {{ -z*{0:.9g}, z*{0:.9g}, {1:.9g} Striped(<0.08,0.22,0.5>)",
                        s.half_length(), s.radius());
@@ -61,11 +62,21 @@ struct Object {
     return fmt::format("sphere {{ 0, {:.9g} Striped(<0.35,0.2,0.5>)", s.radius());
   }
   std::string operator()(const Box& s) const {
-    return fmt::format("box {{ {}, {} Plain({})", povray_vector(-s.half_extents()),
-                       povray_vector(s.half_extents()),
-                       fixed ? "<0.5,0.52,0.55>" : "<0.7,0.55,0.3>");
+    return fmt::format("box {{ {}, {} {}", povray_vector(-s.half_extents()),
+                       povray_vector(s.half_extents()), plain());
   }
-  std::string operator()(const Convex&) const { refuse_convex(); }
+  std::string operator()(const Convex& s) const {
+    std::string text = "mesh { ";
+    for (const Convex::Face& face : s.faces()) {
+      const auto corner = [&](std::size_t i) {
+        return povray_vector(s.vertices()[face.vertices[i]]);
+      };
+      for (std::size_t i = 2; i < face.vertices.size(); ++i) {
+        text += fmt::format("triangle {{ {}, {}, {} }} ", corner(0), corner(i - 1), corner(i));
+      }
+    }
+    return text + plain();
+  }
   std::string operator()(const Plane& s) const {
     return fmt::format("plane {{ {}, {:.9g} Plain(<0.62,0.64,0.6>)", povray_vector(s.unit_normal()),
                        s.unit_displacement());

@@ -53,6 +53,18 @@ TEST_F(PovrayTest, RowsAreTheImagesOfTheAxes) {
   EXPECT_THAT(text("scene.ini"), HasSubstr("Final_Frame=1"));
 }
 
+TEST_F(PovrayTest, AHullIsItsTriangles) {
+  SceneFile file = one_box();
+  file.scene.bodies[0].shape =
+      Convex({{0, 0, 0}, {1, 0, 0}, {1, 2, 0}, {0, 2, 0}}, {{0, 1, 2, 3}, {3, 2, 1, 0}});
+  write_povray(file, one_frame(file), 0.04, folder);
+  EXPECT_THAT(text("frame-00001.inc"),
+              HasSubstr("mesh { triangle { <0,0,0>, <1,0,0>, <1,2,0> } "
+                        "triangle { <0,0,0>, <1,2,0>, <0,2,0> } "
+                        "triangle { <0,2,0>, <1,2,0>, <1,0,0> } "
+                        "triangle { <0,2,0>, <1,0,0>, <0,0,0> } Plain(<0.7,0.55,0.3>) matrix <"));
+}
+
 TEST_F(PovrayTest, EveryIsInSecondsOfTheScene) {
   const SceneFile file = one_box();
   Trajectory run = one_frame(file);

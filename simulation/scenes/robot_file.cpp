@@ -11,8 +11,6 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include <Eigen/Eigenvalues>
-
 #include "candidates/host/contained.hpp"
 #include "candidates/host/guard.hpp"
 #include "candidates/readable.hpp"
@@ -244,7 +242,7 @@ const char* fault_of(const Vec3& principal, const Link& link) {
   constexpr double min_share = 1e-3;
   double of_shapes = 0;  // at most, kg m²
   for (const LinkShape& s : link.shapes) {
-    const Inertia one = inertia(s.shape, 1);
+    const Inertia one = inertia(s.shape, 1).inertia;
     if (one.mass > 0)
       of_shapes = std::max(of_shapes, *link.mass / one.mass * one.principal.maxCoeff());
   }
@@ -262,19 +260,18 @@ void set_inertia(Link& link, const Pose& frame, const Eigen::Matrix3d& moments, 
     return;
   }
   link.inertia = {frame};
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal(
+  const auto [inertia, X_FC] = along_principal_axes(
+      *link.mass, Vec3::Zero(),
       moments.allFinite() ? moments : Eigen::Matrix3d(Eigen::Matrix3d::Zero()));
-  if (const char* fault = fault_of(principal.eigenvalues(), link)) {
+  if (const char* fault = fault_of(inertia.principal, link)) {
     robot.ignored.push_back(
         fmt::format("link {}: its inertia, of which one principal moment is {}; that of its shapes "
                     "is taken, with its mass and centre of mass",
                     link.name, fault));
     return;
   }
-  Eigen::Matrix3d axes = principal.eigenvectors();
-  if (axes.determinant() < 0) axes.col(0) *= -1;
-  link.inertia = {Pose(frame.position(), frame.unit_orientation() * Eigen::Quaterniond(axes)),
-                  principal.eigenvalues()};
+  link.inertia = {Pose(frame.position(), frame.unit_orientation() * X_FC.orientation()),
+                  inertia.principal};
 }
 
 void UnreadOfJoints::add(const char* property, double value, const std::string& joint) {
@@ -341,7 +338,7 @@ std::string left_out_text(const RobotFile& robot) {
   double volume = left.volume;
   for (const Link& link : robot.links) {
     count += link.shapes.size();
-    for (const LinkShape& s : link.shapes) volume += inertia(s.shape, 1).mass;
+    for (const LinkShape& s : link.shapes) volume += inertia(s.shape, 1).inertia.mass;
   }
   const std::string share = left.unknown > 0 || !(volume > 0)
                                 ? std::string("volume unknown")

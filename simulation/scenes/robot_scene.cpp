@@ -27,7 +27,7 @@ constexpr double ghost_mass = 1e-3;  // kg, of one in a robot without any mass
 constexpr double max_friction = 1e6, max_effort = 1e9;  // beyond these more makes no difference
 constexpr double start_up = 0.2;                        // s, until a driven joint has its rate
 
-double volume_of(const Shape& shape) { return inertia(shape, 1).mass; }
+double volume_of(const Shape& shape) { return inertia(shape, 1).inertia.mass; }
 
 bool is_plane(const LinkShape& s) { return std::holds_alternative<Plane>(s.shape); }
 
@@ -298,11 +298,14 @@ class SceneMaker {
     }
     Vec3 centre = Vec3::Zero();
     for (const Body& body : bodies) {
-      centre += inertia(body).inertia.mass / *link.mass * body.pose.position();
+      const auto [own, X_BC] = inertia(body);
+      centre +=
+          own.mass / *link.mass * (body.pose.position() + body.pose.rotation() * X_BC.position());
     }
     for (Body& body : bodies) {
       const Vec3 off = body.pose.rotation().transpose() * (pose.position() - centre);
-      body.inertia = {inertia(body).inertia, Pose(off)};
+      body.inertia = inertia(body);
+      body.inertia->X_BC = {body.inertia->X_BC.position() + off, body.inertia->X_BC.orientation()};
     }
   }
 

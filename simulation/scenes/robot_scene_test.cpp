@@ -86,8 +86,9 @@ TEST(RobotScene, ALinksMassIsSpreadOverItsShapesByTheirVolume) {
   link.mass = 9;
   link.shapes.push_back({"small", Sphere(0.05), Pose(Vec3(0, 0, 2))});
   const Scene scene = robot_scene(robot, {}).scene;
-  const double large = inertia(body(scene, "a").shape, body(scene, "a").density).mass;
-  const double small = inertia(body(scene, "small").shape, body(scene, "small").density).mass;
+  const double large = inertia(body(scene, "a").shape, body(scene, "a").density).inertia.mass;
+  const double small =
+      inertia(body(scene, "small").shape, body(scene, "small").density).inertia.mass;
   EXPECT_NEAR(large, 8, 1e-12);
   EXPECT_NEAR(small, 1, 1e-12);
   const Joint& both = joint(scene, "small in a");
@@ -269,12 +270,12 @@ TEST(RobotScene, ALinkWithoutShapesIsABallThatTouchesNothing) {
   robot.joints = {hinge("steer", 0, 2), hinge("roll", 2, 1)};
   const auto ghost = [&] { return body(robot_scene(robot, {}).scene, "knuckle"); };
   EXPECT_FALSE(ghost().collides);
-  EXPECT_NEAR(inertia(ghost().shape, ghost().density).mass, 0.02, 1e-12);  // 1% of 2 kg
+  EXPECT_NEAR(inertia(ghost().shape, ghost().density).inertia.mass, 0.02, 1e-12);  // 1% of 2 kg
   robot.links[2].mass = 0.3;
-  EXPECT_NEAR(inertia(ghost().shape, ghost().density).mass, 0.3, 1e-12);
+  EXPECT_NEAR(inertia(ghost().shape, ghost().density).inertia.mass, 0.3, 1e-12);
   robot.links[2].mass.reset();
   for (const int light : {0, 1}) robot.links[light].mass = 1e-6;
-  EXPECT_NEAR(inertia(ghost().shape, ghost().density).mass, 2e-8, 1e-16);
+  EXPECT_NEAR(inertia(ghost().shape, ghost().density).inertia.mass, 2e-8, 1e-16);
 }
 
 TEST(RobotScene, FramesHaveNoBodies) {

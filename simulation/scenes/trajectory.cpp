@@ -4,7 +4,6 @@
 #include <chrono>
 #include <cmath>
 #include <fmt/format.h>
-#include <numbers>
 #include <set>
 
 #include "properties/files/given_text.hpp"
@@ -75,17 +74,12 @@ void add_depths(const Scene& scene, const Touching& touching, Trajectory& trajec
   const auto is_cylinder = [&](int i) {
     return std::holds_alternative<Cylinder>(scene.bodies[i].shape);
   };
-  const auto is_plane = [&](int i) { return std::holds_alternative<Plane>(scene.bodies[i].shape); };
   for (int a = 0; a < count; ++a) {
     for (int b = 0; is_cylinder(a) && b < count; ++b) {
       if (a == b || (is_cylinder(b) && b < a) || !touching(a, b)) continue;
       JudgedAnswer answer{frame, a, b, 0, TS_NONE, 0, std::nullopt, 0};
       const Configuration c = trajectory.configuration(scene, answer);
-      if (!is_plane(b)) {
-        const double reach = std::numbers::sqrt3 * (largest_half_extent(scene.bodies[a].shape) +
-                                                    largest_half_extent(scene.bodies[b].shape));
-        if ((c.pose_a.position() - c.pose_b.position()).norm() > reach) continue;
-      }
+      if (!aabb(c.a, c.pose_a).overlaps(aabb(c.b, c.pose_b))) continue;
       answer.depth = -touchstone::signed_distance(c).value;
       if (answer.depth > 0) trajectory.answers.push_back(answer);
     }
@@ -106,7 +100,12 @@ struct ShapeText {
     const Vec3 side = 2 * s.half_extents();
     return fmt::format("box {:g}×{:g}×{:g}", side.x(), side.y(), side.z());
   }
-  /// For any other shape.
+  std::string operator()(const Convex& s) const {
+    const Vec3 side = 2 * s.half_extents();
+    return fmt::format("convex {:g}×{:g}×{:g} of {} corners", side.x(), side.y(), side.z(),
+                       s.vertices().size());
+  }
+  /// For a plane.
   template <class Other>
   std::string operator()(const Other& s) const {
     return shape_name(s);

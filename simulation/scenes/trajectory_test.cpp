@@ -33,5 +33,11 @@ TEST(MotionTable, SaysThatNothingMoves) {
   EXPECT_EQ(table_of(Vec3(0, 0, 0), true), "  Nothing moves: all is fixed.\n");
 }
 
+TEST(ShapeText, TellsHullsApart) {
+  const Convex wedge({{0, 0, 0}, {2, 0, 0}, {0, 4, 0}, {0, 0, 0.5}},
+                     {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}});
+  EXPECT_EQ(shape_text(wedge), "convex 2×4×0.5 of 4 corners");
+}
+
 }  // namespace
 }  // namespace touchstone
