@@ -84,10 +84,6 @@ Faces faces_of_polyhedron(const std::vector<Point>& points) {
 }  // namespace
 
 Convex convex_hull(const std::vector<Vec3>& given, double rounding) {
-  if (given.size() > Convex::max_vertices) {
-    throw InvalidInput("vertices", std::to_string(given.size()) + " points",
-                       "must be at most " + std::to_string(Convex::max_vertices));
-  }
   std::map<Point, int> index;  // the first of equal ones
   std::vector<Point> points;
   for (std::size_t i = 0; i < given.size(); ++i) {
@@ -116,6 +112,10 @@ Convex convex_hull(const std::vector<Vec3>& given, double rounding) {
     if (rank[i] < 0) continue;
     rank[i] = static_cast<int>(vertices.size());
     vertices.push_back(given[i]);
+  }
+  if (vertices.size() > Convex::max_vertices) {
+    throw InvalidInput("vertices", std::to_string(vertices.size()) + " corners",
+                       "must be at most " + std::to_string(Convex::max_vertices));
   }
   // Each face begins with its first vertex, and the faces are sorted, whatever order CGAL found.
   std::vector<std::vector<int>> indices;

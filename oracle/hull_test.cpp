@@ -184,14 +184,21 @@ TEST(Hull, DoesNotDependOnTheOrderOfThePoints) {
   }
 }
 
-TEST(Hull, OfAsManyPointsAsThereMayBe) {
+TEST(Hull, HasAsManyCornersAsThereMayBeAndNoMore) {
   std::vector<Vec3> points = random_points(Convex::max_vertices, 11);
   for (Vec3& p : points) p.normalize();
   const Convex body = convex_hull(points);
   EXPECT_GT(body.vertices().size(), 4000u);
   EXPECT_EQ(body.faces().size(), 2 * body.vertices().size() - 4);
-  points.push_back(Vec3::Zero());
-  EXPECT_THROW(convex_hull(points), InvalidInput);
+  points.push_back(Vec3::Zero());  // of points inside there may be any number
+  EXPECT_EQ(convex_hull(points).vertices(), body.vertices());
+  for (const Vec3& p : random_points(200, 12)) points.push_back(p.normalized());
+  try {
+    convex_hull(points);
+    FAIL();
+  } catch (const InvalidInput& e) {
+    EXPECT_TRUE(std::string(e.what()).ends_with(" corners: must be at most 4096")) << e.what();
+  }
 }
 
 std::string refusal(const std::vector<Vec3>& points) {

@@ -121,6 +121,10 @@ Shape shape_from_json(const json& value, const std::string& path) {
     if (!given.is_array()) {
       throw InvalidInput(field, shown(given), "must be an array of points, of 3 numbers each");
     }
+    if (given.size() > Convex::max_vertices) {
+      throw InvalidInput(field, fmt::format("{} points", given.size()),
+                         fmt::format("must be at most {}", Convex::max_vertices));
+    }
     std::vector<Vec3> vertices;
     for (std::size_t i = 0; i < given.size(); ++i) {
       vertices.push_back(vector(given[i], fmt::format("{}[{}]", field, i)));

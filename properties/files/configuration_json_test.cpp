@@ -108,6 +108,20 @@ TEST(ConfigurationJson, ARoundingIsReadAndWrittenWhereThereIsOne) {
   EXPECT_EQ(std::get<Convex>(configuration_from_json(line).configuration.b).rounding(), 9);
 }
 
+TEST(ConfigurationJson, MoreVerticesThanThereMayBeAreRefused) {
+  json line = box_configuration();
+  line["b"] = {{"shape", "convex"}, {"vertices", json::array()}};
+  for (std::size_t i = 0; i <= Convex::max_vertices; ++i) {
+    line["b"]["vertices"].push_back({0.0, 0.0, i % 7});
+  }
+  try {
+    configuration_from_json(line);
+    FAIL();
+  } catch (const InvalidInput& e) {
+    EXPECT_STREQ(e.what(), "b.vertices is 4097 points: must be at most 4096");
+  }
+}
+
 TEST(ConfigurationJson, NamesTheFieldThatIsWrong) {
   const struct {
     const char* pointer;
