@@ -63,7 +63,7 @@ SceneFile scene_of(ChooseArguments& options) {
   if (!is_robot_file(options.scene)) return file;
   if (!options.engine.empty()) {
     describe_engine(options.engine);  // which has to be there
-    check_engine_choice(options.engine, file.scene);
+    check_engine_scene(options.engine, file.scene);
   }
   const Trials trials = options.trials;
   const unsigned workers = options.workers.get();
@@ -124,6 +124,9 @@ int choose_for_engine(ChooseArguments& options) {
   const std::string command =
       fmt::format("{} choose {}{} --engine {}{}", program_name(), shell_quoted(options.scene),
                   options.robot.command_line(), options.engine, options.of_trials());
+  if (const std::string hulls = hulls_text(options.engine, file.scene); !hulls.empty()) {
+    complain("warning: " + hulls);
+  }
   const EngineChoice choice =
       choose_in_engine(file, options.engine, {options.workers.get(), options.trials});
   deliver(options, engine_choice_json(choice, command),

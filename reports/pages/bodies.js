@@ -116,8 +116,8 @@ function boxMesh({half_extents: h}) {
   }
   return {faces, normals, edges: faces.map(f => [...f, f[0]]), stripe: faces.map(() => false)};
 }
-// A polyhedron whose faces are lists of indices of its vertices.
-function convexMesh({vertices, faces: indices}) {
+// A polyhedron whose faces are lists of indices of its vertices; nothing where these are not given.
+function convexMesh({vertices, faces: indices = []}) {
   const faces = indices.map(f => f.map(i => vertices[i]));
   const normals = faces.map(([a, b, c]) => unit(cross(add(b, a, -1), add(c, a, -1))));
   return {faces, normals, edges: faces.map(f => [...f, f[0]]), stripe: faces.map(() => false)};

@@ -70,9 +70,9 @@ struct EngineChoice {
   const EngineSetting& exact_setting() const { return settings[1]; }
 };
 
-/// Throws InvalidInput as check_engine_scene does, or where a cylinder may touch a convex body: our
-/// routines, with which an engine's own are compared, know none in the engines.
-void check_engine_choice(const std::string& engine, const Scene& scene);
+/// Says that a cylinder may touch a convex body: our routines know none inside the engines, so that
+/// these contacts stay the engine's own in all settings. Empty if none may.
+std::string hulls_text(const std::string& engine, const Scene& scene);
 
 /// Runs the scene in an engine's own world with each shape that it offers for all cylinders, under
 /// disturbances, each run in a process of its own; times those that hold; then searches by size,
