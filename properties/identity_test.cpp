@@ -202,6 +202,11 @@ TEST(Identity, KeepsItsBitsFromVersionToVersion) {
       {"cylinder-box/hostile/42/137", 0xc7252623e83e2fc1},
       {"cylinder-sphere/recorded/1/0", 0x6f4acc192535f75e},
       {"cylinder-sphere/hostile/42/137", 0x71927f89afcd6968},
+      {"cylinder-convex/general/1/0", 0},
+      {"cylinder-convex/edge-rim+of-prism/1/0", 0},
+      {"cylinder-convex/parallel+tilted-1e-1/1/0", 0},
+      {"cylinder-convex/touching-tilted/1/0", 0},
+      {"cylinder-convex/hostile/42/137", 0},
   };
   for (const auto& row : golden) {
     const std::string bits = shown(make_configuration(parse_identity(row.identity)));
