@@ -42,20 +42,28 @@ int exponent_to_one(const Vec3& v) {
 /// However long or short it is.
 Vec3 unit_along(const Vec3& v) { return times_power_of_two(v, exponent_to_one(v)).normalized(); }
 
+/// What halves lengths if their differences may overflow: always halved, the least would vanish.
+double room_for_differences(const std::vector<Vec3>& points) {
+  constexpr double limit = std::numeric_limits<double>::max() / 2;
+  const bool are_small = std::all_of(
+      points.begin(), points.end(), [](const Vec3& p) { return p.cwiseAbs().maxCoeff() <= limit; });
+  return are_small ? 1 : 0.5;
+}
+
 /// The outward unit normal of a plane polygon.
-Vec3 normal_of(const std::vector<Vec3>& vertices, const Convex::Face& face) {
+Vec3 normal_of(const std::vector<Vec3>& vertices, const Convex::Face& face, double part) {
   const std::vector<int>& corners = face.vertices;
   const Vec3& first = vertices[corners.front()];
   Vec3 longest = Vec3::Zero();
   for (const int i : corners) {
-    const Vec3 arm = vertices[i] / 2 - first / 2;  // whose difference may overflow
+    const Vec3 arm = part * vertices[i] - part * first;
     if (arm.cwiseAbs().maxCoeff() > longest.cwiseAbs().maxCoeff()) longest = arm;
   }
   const int exponent = exponent_to_one(longest);
   const auto arm = [&](int corner) {
     TwofoldVector result;
     for (int k = 0; k < 3; ++k) {
-      const Twofold x = sum_of(vertices[corner][k] / 2, -first[k] / 2);
+      const Twofold x = sum_of(part * vertices[corner][k], -part * first[k]);
       result[k] = {std::ldexp(x.high, exponent), std::ldexp(x.low, exponent)};
     }
     return result;
@@ -197,8 +205,9 @@ ConvexTables::ConvexTables(const std::vector<Vec3>& points, const std::vector<Co
     Points& four = vertices[i / 4];
     four.x[i % 4] = v.x(), four.y[i % 4] = v.y(), four.z[i % 4] = v.z();
   }
+  const double part = room_for_differences(points);
   for (std::size_t i = 0; i < 4 * faces.size(); ++i) {
-    if (i < given.size()) face_normals.push_back(normal_of(points, given[i]));
+    if (i < given.size()) face_normals.push_back(normal_of(points, given[i], part));
     const Vec3& n = face_normals.back();
     Points& four = faces[i / 4].normal;
     four.x[i % 4] = n.x(), four.y[i % 4] = n.y(), four.z[i % 4] = n.z();
@@ -206,7 +215,7 @@ ConvexTables::ConvexTables(const std::vector<Vec3>& points, const std::vector<Co
   std::vector<std::vector<FaceEdge>> of_face(given.size());
   std::vector<std::vector<int>> edges_at(points.size()), facets_at(points.size());
   for (const Convex::Edge& e : given_edges) {
-    const Vec3 along = unit_along(points[e.vertices[1]] / 2 - points[e.vertices[0]] / 2);
+    const Vec3 along = unit_along(part * points[e.vertices[1]] - part * points[e.vertices[0]]);
     const Vec3 left = face_normal(e.faces[0]), right = face_normal(e.faces[1]);
     const Vec3 middle = (left + right + along.cross(left - right)).normalized();
     const int index = static_cast<int>(edges.size());

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "reference/configuration.hpp"
+#include "reference/convex_tables.hpp"
 #include "reference/invalid_input.hpp"
 #include "reference/support.hpp"
 
@@ -64,6 +65,21 @@ TEST(ConvexBody, SizesAndNormalsNeitherOverflowNorVanish) {
   constexpr double most = std::numeric_limits<double>::max();
   const Convex c({{-most, 0, 0}, {most, 0, 0}, {0, most, 0}}, {{0, 1, 2}, {2, 1, 0}});
   EXPECT_EQ(c.half_extents(), Vec3(most, most / 2, 0));
+}
+
+// Vertices that are neighbours of each other: halved, so that no difference overflows, an edge of
+// the least length would be none, and the faces beside it would face anywhere.
+TEST(ConvexBody, ItsDirectionsAreThoseOfTheLeastEdges) {
+  constexpr double least = std::numeric_limits<double>::denorm_min();
+  const Convex c({{0, 0, 0}, {1, 0, 0}, {1, least, 0}, {0, 0, 1}},
+                 {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}});
+  const ConvexTables& tables = c.tables();
+  for (const ConvexTables::Edge& e : tables.edges) {
+    EXPECT_NEAR(e.along.norm(), 1, 1e-15);
+    if (e.length == least) EXPECT_EQ(e.along.cwiseAbs(), Vec3(0, 1, 0));
+  }
+  EXPECT_EQ(tables.face_normal(0), Vec3(0, 0, -1));
+  EXPECT_EQ(tables.face_normal(1), Vec3(0, -1, 0));
 }
 
 TEST(ConvexBody, RefusesWhatIsNoClosedConvexSurfaceAndNamesWhere) {
