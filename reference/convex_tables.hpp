@@ -80,16 +80,19 @@ struct ConvexTables {
   const Vec3& face_normal(int face) const { return face_normals[static_cast<std::size_t>(face)]; }
   const Vec3& vertex(int i) const { return places[static_cast<std::size_t>(i)]; }
   /// The first of several.
-  int farthest_vertex(const Vec3& n) const {
-    double most = -std::numeric_limits<double>::infinity();
-    int found = 0;
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
+  int farthest_vertex(const Vec3& n) const { return first_at(n, support(n)); }
+  /// The first vertex that is so far along n.
+  int first_at(const Vec3& n, double far_along) const {
+    for (std::size_t i = 0; i + 1 < vertices.size(); ++i) {
       const Four along = vertices[i].along(n);
       for (int k = 0; k < 4; ++k) {
-        if (along[k] > most) most = along[k], found = 4 * static_cast<int>(i) + k;
+        if (along[k] == far_along) return 4 * static_cast<int>(i) + k;
       }
     }
-    return found;
+    const Four along = vertices.back().along(n);
+    int k = 0;
+    while (k < 3 && !(along[k] == far_along)) ++k;
+    return 4 * static_cast<int>(vertices.size() - 1) + k;
   }
   /// How far a point lies above a face's plane; with the bits of `heights`.
   double height(const Vec3& p, int face) const {

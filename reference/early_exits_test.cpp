@@ -1,11 +1,12 @@
 // Where a search ends early it rests on a proof (proofs.md, "Where a search ends early"). Each test
-// draws pairs of cylinders that attack one of them: it held of most, and was false of some.
+// draws bodies that attack one of them: it held of most, and was false of some.
 //
 // TOUCHSTONE_COUNT times a hundred and more pairs are drawn of each kind; by default 100.
 #include <cmath>
 #include <gtest/gtest.h>
 #include <string>
 
+#include "oracle/hull.hpp"
 #include "oracle/truth.hpp"
 #include "reference/contact_of.hpp"
 #include "reference/rounding_made_test.hpp"
@@ -80,6 +81,64 @@ TEST(EarlyExits, AreRightOfNeedlesOverAFarLargerRim) {
 TEST(EarlyExits, AreRightOfCoinsDeepInEachOtherOnNearlyPerpendicularAxes) {
   for (std::uint64_t i = 0; i < count(); ++i) {
     expect_the_truth(RoundingMade(i).deep_coins(), i);
+  }
+}
+
+/// In any frame: A as it is placed there, B the hull of points.
+Configuration turned(Random& random, const Cylinder& a, const Vec3& centre, const Vec3& axis,
+                     const std::vector<Vec3>& points) {
+  const Eigen::Quaterniond turn = random.turn();
+  return {a, Pose(turn * centre, turn * turn_between(Vec3::UnitZ(), axis)),
+          oracle::convex_hull(points), Pose(Vec3::Zero(), turn)};
+}
+
+/// About as long as another length, or by far longer.
+double about_or_longer(Random& random, double length) {
+  return length * (random.toss() ? random.uniform(0.5, 2) : random.power_of_ten(0, 3));
+}
+
+// A's lowest point is in a triangle, or the top of a tetrahedron, about its depth away from an
+// edge, and A is about that thick. Without its disc about the point as wide as that, or without the
+// rest of A, the shorter way out is past the edge.
+TEST(EarlyExits, AreRightOfFacesNextToTheirEdges) {
+  for (std::uint64_t i = 0; i < 200 * count(); ++i) {
+    Random random(i);
+    const double depth = random.power_of_ten(-3, 0);
+    const Cylinder a(about_or_longer(random, depth), about_or_longer(random, depth));
+    const double beside = about_or_longer(random, depth);
+    std::vector<Vec3> points = {{-beside, -2e3, 0}, {-beside, 2e3, 0}, {4e3, 0, 0}};
+    if (random.toss()) points.emplace_back(1, 0, -about_or_longer(random, depth));
+    const Vec3 axis = random.direction(), low = a.half_length() * -axis;
+    const Vec3 down = (Vec3::UnitZ() - axis.z() * axis).normalized();
+    const Vec3 centre = Vec3(0, 0, -depth) - (axis.z() > 0 ? low : Vec3(-low)) + a.radius() * down;
+    expect_no_short_cut_is_wrong(turned(random, a, centre, axis, points), i);
+  }
+}
+
+// A rim meets an edge along a normal that is stationary, about as deep as it may be for a maximum;
+// the edge goes on for about that much, and A is about as thick.
+TEST(EarlyExits, AreRightOfRimsAcrossAnEdge) {
+  for (std::uint64_t i = 0; i < 200 * count(); ++i) {
+    Random random(i);
+    const double radius = random.uniform(0.2, 1), steep = random.uniform(0.01, 1.5);
+    const double turn = random.toss() ? random.uniform(0, 1.6) : random.power_of_ten(-3, 0);
+    const double length = random.toss() ? random.uniform(0.1, 2) : random.power_of_ten(-3, 0);
+    const double sine = std::sin(turn);
+    const double round = 2 * radius * length * sine * sine / (radius + 2 * length);
+    const double depth = random.toss() ? round * random.uniform(0, 2) : -random.power_of_ten(-9, 0);
+    const Cylinder a(radius, about_or_longer(random, std::abs(depth)));
+    const Vec3 outward(std::cos(steep), 0, std::sin(steep)), tangent(0, 1, 0);
+    const Vec3 along = std::cos(turn) * outward.cross(tangent) + sine * tangent;
+    const Vec3 on_edge = Vec3(radius, 0, a.half_length()) - depth * outward;
+    const Vec3 aside = along.cross(outward);
+    std::vector<Vec3> points = {on_edge - length * along,
+                                on_edge + about_or_longer(random, length) * along};
+    for (int k = random.toss() ? 1 : 3; k > 0; --k) {
+      points.push_back(on_edge + random.power_of_ten(-2, 1) * (random.uniform(0, 1) * outward +
+                                                               random.uniform(-1, 1) * aside +
+                                                               random.uniform(-1, 1) * along));
+    }
+    expect_no_short_cut_is_wrong(turned(random, a, Vec3::Zero(), Vec3::UnitZ(), points), i);
   }
 }
 
