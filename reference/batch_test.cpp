@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <cstring>
 #include <gtest/gtest.h>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <string>
@@ -17,7 +18,7 @@
 #include "properties/identity.hpp"
 #include "reference/contact_of.hpp"
 #include "reference/invalid_input.hpp"
-#include "reference/random_bodies_test.hpp"
+#include "reference/random_hulls_test.hpp"
 #include "reference/single_precision.hpp"
 
 namespace touchstone {
@@ -107,6 +108,19 @@ TEST_P(Batch, HasTheBitsOfSinglePairsInEveryPoseClass) {
       const auto range = i % 2 == 0 ? PointRange::near_deepest : PointRange::within_threshold;
       ASSERT_NO_FATAL_FAILURE(expect_same_bits(c.a, c.b, poses, threshold, range));
     }
+  }
+}
+
+TEST(BatchOfHulls, HasTheBitsOfSinglePairs) {
+  Random random(1);
+  for (int i = 0; i < 200; ++i) {
+    const Configuration c = with_hull(hull_kinds[i % std::size(hull_kinds)], random);
+    const double threshold = (i % 3 == 0 ? 0 : i % 3 == 1 ? 0.05 : -0.01) * smaller_size(c);
+    Poses poses;
+    add_distances(c, threshold, poses);
+    poses.add(c.pose_b, c.pose_a);
+    const auto range = i % 2 == 0 ? PointRange::near_deepest : PointRange::within_threshold;
+    ASSERT_NO_FATAL_FAILURE(expect_same_bits(c.a, c.b, poses, threshold, range)) << i;
   }
 }
 

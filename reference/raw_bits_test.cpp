@@ -9,7 +9,9 @@
 #include <gtest/gtest.h>
 #include <optional>
 #include <random>
+#include <vector>
 
+#include "oracle/hull.hpp"
 #include "reference/contact_of.hpp"
 #include "reference/invalid_input.hpp"
 #include "reference/random_bodies_test.hpp"
@@ -49,6 +51,11 @@ class RawBits {
     return Cylinder(radius, size());
   }
   Shape shape(Pair pair) {
+    if (pair == Pair::convex) {
+      std::vector<Vec3> points;
+      for (auto left = 3 + bits_() % 6; left > 0; --left) points.push_back(vector());
+      return oracle::convex_hull(points);
+    }
     const auto plane = [&] {
       const Vec3 normal = vector();
       return Plane(normal, any());
@@ -113,8 +120,17 @@ TEST_P(AnyBits, AreAnsweredWithNumbers) {
 Configuration ordinary(std::uint64_t seed, Pair pair) {
   Random random(seed);
   const auto size = [&] { return random.power_of_ten(-1.5, 1); };
+  const auto hull = [&]() -> Shape {
+    std::vector<Vec3> points;
+    for (int left = 3 + random.one_of(8); left > 0; --left) {
+      points.push_back(size() * random.direction());
+    }
+    return oracle::convex_hull(points);
+  };
   // A plane's normal that is not rounded again.
-  const Shape b = shape_of_sizes(pair, size, [&] { return Plane(Vec3::UnitX(), size()); });
+  const Shape b = pair == Pair::convex
+                      ? hull()
+                      : shape_of_sizes(pair, size, [&] { return Plane(Vec3::UnitX(), size()); });
   const double radius = size();
   Configuration c{Cylinder(radius, size()), Pose(), b, Pose()};
   const Eigen::Quaterniond turn_b = random.turn();
@@ -139,6 +155,11 @@ Shape raw_scaled(const Shape& shape, double factor) {
   }
   if (const auto* s = std::get_if<Cylinder>(&shape)) {
     return Cylinder(factor * s->radius(), factor * s->half_length());
+  }
+  if (const auto* s = std::get_if<Convex>(&shape)) {
+    std::vector<Vec3> vertices = s->vertices();
+    for (Vec3& v : vertices) v *= factor;
+    return oracle::convex_hull(vertices);
   }
   return Box(factor * std::get<Box>(shape).half_extents());
 }
@@ -179,7 +200,7 @@ TEST_P(AnyBits, AreTheSameWhateverTheUnitOfLength) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(, AnyBits, testing::ValuesIn(pairs_of_sizes), name_of_other);
+INSTANTIATE_TEST_SUITE_P(, AnyBits, testing::ValuesIn(all_pairs), name_of_other);
 
 }  // namespace
 }  // namespace touchstone
