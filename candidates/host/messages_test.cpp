@@ -53,6 +53,7 @@ TEST(Hello, IsRefusedWithTheMemberTheValueAndTheRemedy) {
       {"[\"cylinder-box\"]", "[]", "must be a list of"},
       {"\"later\": []", "\"parameter\": {\"meaning\": \"m\", \"min\": 2, \"max\": 1, \"usual\": 1}",
        "with min <= usual <= max"},
+      {"\"later\": []", "\"roundings\": 1", "\"roundings\": \"1\", which must be true or false"},
       {"\"mine\"", "\"mine\", \"name\": \"other\"", "wrote the member \"name\" twice"},
       {"{\"touch", "Welcome!{\"touch", "no JSON object"}};
   for (const auto& c : cases) {
@@ -132,6 +133,40 @@ TEST(Lines, HaveAConvexBodysVertices) {
               AllOf(HasSubstr(R"("shape":"convex")"),
                     HasSubstr("\"vertices\":[[0.0,0.0,0.0],[0.30000000000000004,0.0,0.0],"
                               "[0.0,-1e-300,1.0]]")));
+}
+
+// Of a command that says them, and of no other.
+TEST(Roundings, StandAtTheEndOfAPreparedPairAndOfItsAnswer) {
+  PairOfShapes pair{7, 0, 0, sized(TS_CYLINDER, 0.5, 1), triangle};
+  pair.a.rounding = 0.25;
+  const Request silent = prepare_request(Format::frames, 3, pair);
+  const Request asked = prepare_request(Format::frames, 3, pair, true);
+  ASSERT_EQ(asked.text.size(), silent.text.size() + 16);
+  EXPECT_EQ(at<double>(asked.text, silent.text.size()), 0.25);
+  EXPECT_EQ(at<double>(asked.text, silent.text.size() + 8), 0);
+  ASSERT_EQ(asked.answer_size(), 24u + 4 + 16);
+  EXPECT_EQ(silent.answer_size(), 24u + 4);
+
+  std::string answer = asked.text.substr(0, 24) + std::string(20, '\0');
+  const std::uint32_t length = 40, supported = 1;
+  const double roundings[] = {0.04, 0.02};
+  std::memcpy(answer.data(), &length, sizeof length);
+  std::memcpy(answer.data() + 24, &supported, sizeof supported);
+  std::memcpy(answer.data() + 28, roundings, sizeof roundings);
+  const auto prepared = read_prepared(asked, answer);
+  ASSERT_TRUE(prepared);
+  EXPECT_EQ(prepared->roundings[0], 0.04);
+  EXPECT_EQ(prepared->roundings[1], 0.02);
+
+  const Request line = prepare_request(Format::lines, 3, pair, true);
+  EXPECT_THAT(line.text, HasSubstr(R"("rounding":0.25)"));
+  const auto read =
+      read_prepared(line, R"({"ticket": 3, "supported": [true], "roundings": [[0.04, 0.02]]})");
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->roundings[1], 0.02);
+  EXPECT_THROW(read_prepared(line, R"({"ticket": 3, "supported": [true]})"), Garbage);
+  EXPECT_THROW(read_prepared(line, R"({"ticket": 3, "supported": [true], "roundings": [[0.04]]})"),
+               Garbage);
 }
 
 TEST(Lines, HoldDoublesExactly) {
