@@ -73,7 +73,8 @@ PosedBodies posed_bodies(const Cylinder& a, py::handle pose_a, py::handle b, py:
 void check_threshold(double threshold);
 
 /// __repr__, __eq__, __hash__ and pickling of a value that its constructor's arguments define.
-/// `arguments` gives them as plain numbers and tuples.
+/// `arguments` gives them as plain numbers and tuples, without the last ones where these are the
+/// constructor's own.
 template <class T>
 void define_value(py::class_<T>& type, const std::vector<std::string>& names,
                   py::tuple (*arguments)(const T&)) {
@@ -81,7 +82,7 @@ void define_value(py::class_<T>& type, const std::vector<std::string>& names,
   type.def("__repr__", [name, names, arguments](const T& value) {
     const py::tuple values = arguments(value);
     std::string text = name + "(";
-    for (std::size_t i = 0; i < names.size(); ++i) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
       text += (i > 0 ? ", " : "") + names[i] + "=" + py::repr(values[i]).cast<std::string>();
     }
     return text + ")";

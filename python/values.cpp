@@ -31,10 +31,18 @@ py::tuple arguments(const ContactValue& c) {
   return py::make_tuple(c.signed_distance, plain(c.normal), points);
 }
 
-void bind_shapes(py::module_& m) {
-  py::class_<Cylinder> cylinder(m, "Cylinder", R"(Cylinder(radius, half_length)
+/// The constructor's arguments with a rounding, if there is one.
+py::tuple with_rounding(const py::tuple& sharp, double rounding) {
+  return rounding > 0 ? py::tuple(sharp + py::make_tuple(rounding)) : sharp;
+}
 
-A solid circular cylinder about its local z axis; its caps are at z = ±half_length. Metres.
+void bind_shapes(py::module_& m) {
+  constexpr const char* of_rounding = "By which edges and corners are rounded, metres.";
+
+  py::class_<Cylinder> cylinder(m, "Cylinder", R"(Cylinder(radius, half_length, rounding=0)
+
+A solid circular cylinder about its local z axis; its caps are at z = ±half_length. Edges may be
+rounded: all points within `rounding` of the cylinder whose sizes are smaller by it. Metres.
 
 >>> touchstone.Cylinder(radius=0.5, half_length=1)
 Cylinder(radius=0.5, half_length=1.0)
@@ -44,12 +52,16 @@ Traceback (most recent call last):
 ValueError: radius is -1: must be positive and finite
 )");
   define_constructor(
-      cylinder, +[](double radius, double half_length) { return Cylinder(radius, half_length); },
-      py::arg("radius"), py::arg("half_length"));
+      cylinder,
+      +[](double radius, double half_length, double rounding) {
+        return Cylinder(radius, half_length, rounding);
+      },
+      py::arg("radius"), py::arg("half_length"), py::arg("rounding") = 0.0);
   cylinder.def_property_readonly("radius", &Cylinder::radius, "Metres.");
   cylinder.def_property_readonly("half_length", &Cylinder::half_length, "Metres.");
-  define_value<Cylinder>(cylinder, {"radius", "half_length"}, [](const Cylinder& s) {
-    return py::make_tuple(s.radius(), s.half_length());
+  cylinder.def_property_readonly("rounding", &Cylinder::rounding, of_rounding);
+  define_value<Cylinder>(cylinder, {"radius", "half_length", "rounding"}, [](const Cylinder& s) {
+    return with_rounding(py::make_tuple(s.radius(), s.half_length()), s.rounding());
   });
 
   py::class_<Plane> plane(m, "Plane", R"(Plane(normal, displacement)
@@ -89,40 +101,49 @@ its ends reach half_length + radius. Metres.
     return py::make_tuple(s.radius(), s.half_length());
   });
 
-  py::class_<Box> box(m, "Box", "Box(half_extents)\n\nA box about its origin. Metres.\n");
+  py::class_<Box> box(m, "Box",
+                      "Box(half_extents, rounding=0)\n\nA box about its origin, whose edges may be "
+                      "rounded as a Cylinder's. Metres.\n");
   define_constructor(
-      box, +[](const Numbers<Vec3>& half_extents) { return Box(half_extents); },
-      py::arg("half_extents"));
+      box,
+      +[](const Numbers<Vec3>& half_extents, double rounding) {
+        return Box(half_extents, rounding);
+      },
+      py::arg("half_extents"), py::arg("rounding") = 0.0);
+  box.def_property_readonly("rounding", &Box::rounding, of_rounding);
   box.def_property_readonly(
       "half_extents", [](const Box& s) { return vector_to_python(s.half_extents()); },
       "Along the local x, y, z axes, metres; an array of three.");
-  define_value<Box>(box, {"half_extents"},
-                    [](const Box& s) { return py::make_tuple(plain(s.half_extents())); });
+  define_value<Box>(box, {"half_extents", "rounding"}, [](const Box& s) {
+    return with_rounding(py::make_tuple(plain(s.half_extents())), s.rounding());
+  });
 
-  py::class_<Convex> convex(m, "Convex", R"(Convex(vertices)
+  py::class_<Convex> convex(m, "Convex", R"(Convex(vertices, rounding=0)
 
 The convex hull of three or more points of its own frame, which need not be about its origin: a
 polyhedron, or a polygon in space, as a triangle. Of up to 4,096 points those are kept that are
-corners, which exact arithmetic decides. Metres.
+corners, which exact arithmetic decides. With a rounding the body is larger than the hull: all points
+within it. Metres.
 
 >>> touchstone.Convex([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0.25, 0.25, 0)])
 Convex(vertices=((0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.0)))
 )");
   define_constructor(
       convex,
-      +[](const Numbers<Points>& vertices) {
+      +[](const Numbers<Points>& vertices, double rounding) {
         std::vector<Vec3> points;
         for (const auto& row : vertices.vector.rowwise()) points.emplace_back(row);
-        return oracle::convex_hull(points);
+        return oracle::convex_hull(points, rounding);
       },
-      py::arg("vertices"));
+      py::arg("vertices"), py::arg("rounding") = 0.0);
+  convex.def_property_readonly("rounding", &Convex::rounding, "Around the hull, metres.");
   convex.def_property_readonly(
       "vertices", [](const Convex& s) { return frozen(vectors_to_python(s.vertices())); },
       "Metres; an array of shape (n, 3).");
-  define_value<Convex>(convex, {"vertices"}, [](const Convex& s) {
+  define_value<Convex>(convex, {"vertices", "rounding"}, [](const Convex& s) {
     py::tuple vertices(s.vertices().size());
     for (std::size_t i = 0; i < s.vertices().size(); ++i) vertices[i] = plain(s.vertices()[i]);
-    return py::make_tuple(vertices);
+    return with_rounding(py::make_tuple(vertices), s.rounding());
   });
 }
 

@@ -54,6 +54,20 @@ class Values(unittest.TestCase):
     def test_equal_values_have_equal_hashes(self):
         self.assertEqual(len({Cylinder(0.5, 1), Cylinder(0.5, 1.0), Cylinder(1, 0.5)}), 2)
 
+    def test_a_rounding_is_part_of_a_value_and_need_not_be_given(self):
+        for sharp, rounded, text in [
+                (Cylinder(0.5, 1), Cylinder(0.5, 1, 0.25), "Cylinder(radius=0.5, half_length=1.0, rounding=0.25)"),
+                (Box((1, 2, 3)), Box((1, 2, 3), rounding=0.25), "Box(half_extents=(1.0, 2.0, 3.0), rounding=0.25)"),
+                (TRIANGLE, Convex(TRIANGLE.vertices, 0.25), repr(TRIANGLE)[:-1] + ", rounding=0.25)")]:
+            self.assertEqual((sharp.rounding, rounded.rounding), (0, 0.25))
+            self.assertNotEqual(sharp, rounded)
+            self.assertEqual(repr(rounded), text)
+            self.assertEqual(pickle.loads(pickle.dumps(rounded)), rounded)
+        distance, normal = touchstone.signed_distance(Cylinder(2, 2, 1), Pose(), Sphere(4), Pose((4, 0, 5)))
+        self.assertAlmostEqual(distance, 0, 14)  # 5 from the core's rim
+        truth = touchstone.truth(Cylinder(2, 2, 1), Pose(), Sphere(4), Pose((4, 0, 5)))
+        self.assertEqual((truth.lower, truth.upper), (0, 0))
+
     def test_different_values_and_types_differ(self):
         for i, value in enumerate(self.all):
             for other in self.all[:i]:
@@ -96,6 +110,8 @@ class Values(unittest.TestCase):
     def test_bad_sizes_are_refused_with_field_value_and_remedy(self):
         for make, text in [(lambda: Cylinder(-1, 1), "radius is -1: must be positive and finite"),
                            (lambda: Capsule(1, math.nan), "half_length is nan: must be"),
+                           (lambda: Cylinder(1, 2, 1.5), "rounding is 1.5: must be 0 to the smallest half extent, 1"),
+                           (lambda: Convex(TRIANGLE.vertices, -1), "rounding is -1: must not be negative"),
                            (lambda: Box((1, 0, 1)), r"half_extents\[1\] is 0: must be"),
                            (lambda: Plane((0, 0, 0), 1), "normal is .*: must"),
                            (lambda: Sphere(math.inf), "radius is inf: must be"),
