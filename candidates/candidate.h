@@ -23,8 +23,8 @@
 extern "C" {
 #endif
 
-/* The version of this header. Plug-ins made for versions 3 and 4, which know no convex bodies and no
- * roundings, load, too, and are not asked about those; others are rejected. */
+/* The version of this header. Plug-ins made for versions 3 and 4, which know no convex bodies and
+ * no roundings, load, too, and are not asked about those; others are rejected. */
 #define TOUCHSTONE_INTERFACE_VERSION 5
 #define TOUCHSTONE_MAX_POINTS 16
 #define TOUCHSTONE_EXPORT __attribute__((visibility("default")))
@@ -40,8 +40,8 @@ typedef enum ts_shape_kind {
                   space, as a triangle, with two faces that look in opposite directions */
 } ts_shape_kind;
 
-/* Vertices and faces are of a convex body, and else zero. They are there during `prepare` only: copy
- * what you need. */
+/* Vertices and faces are of a convex body, and else zero. They are there during `prepare` only:
+ * copy what you need. */
 typedef struct ts_shape {
   ts_shape_kind kind;
   double size[4];         /* unused entries are zero */
@@ -51,8 +51,8 @@ typedef struct ts_shape {
   int vertex_count;       /* 3 to 4096 */
   int face_count;
   /* Edges and corners are rounded by a ball of this radius: the body is all points within it of a
-   * core, which is a cylinder or a box whose sizes are smaller by it (size has the outer ones, and it
-   * is at most the smallest), or the hull. Zero but where ts_plugin.roundings is set. */
+   * core, which is a cylinder or a box whose sizes are smaller by it (size has the outer ones, and
+   * it is at most the smallest), or the hull. Zero but where ts_plugin.roundings is set. */
   double rounding;
 } ts_shape;
 

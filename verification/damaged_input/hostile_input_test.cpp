@@ -144,8 +144,9 @@ std::vector<std::string> configuration_lines() {
   }
   for (const char* way : {R"("axis":"y")", R"("axis":[1e-300,"0x1p-3",-2])",
                           R"("rotation":[[0.6,-0.8,0],[0.8,0.6,0],[0,0,1]])"}) {
-    lines.push_back(R"({"id":null,"a":{"shape":"cylinder","radius":1,"half_length":2},"pose_a":{)" +
-                    std::string(way) + R"(},"b":{"shape":"sphere","radius":1}})");
+    lines.push_back(
+        R"({"id":null,"a":{"shape":"cylinder","radius":1,"half_length":2,"rounding":0.5},"pose_a":{)" +
+        std::string(way) + R"(},"b":{"shape":"sphere","radius":1}})");
   }
   lines.push_back(R"({"a":{"shape":"sphere","radius":1},"sweep":[1,"0x1p-3",-2],)"
                   R"("b":{"shape":"cylinder","radius":1,"half_length":2}})");
