@@ -180,8 +180,8 @@ RobotOption::RobotOption(Command& command) : seconds_(RobotMotion().duration) {
       command.flag("--fixed-base", has_fixed_base_, "Hold the root link where it is").group(robots),
       command
           .list("--model-path", folders_,
-                "Folders to look for included models in, before those of SDF_PATH, "
-                "GZ_SIM_RESOURCE_PATH, GAZEBO_MODEL_PATH and the file's own")
+                "Folders to look for meshes and included models in, before those of SDF_PATH, "
+                "GZ_SIM_RESOURCE_PATH, ROS_PACKAGE_PATH and the file's own")
           .value("FOLDER")
           .group(robots)};
 }

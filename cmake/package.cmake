@@ -35,7 +35,7 @@ foreach(page README.md CONTRIBUTING.md candidates/host/protocol.md oracle/truth.
 endforeach()
 install(PROGRAMS oracle/check_certificate.py DESTINATION share/touchstone)
 install(DIRECTORY simulation/scenes/ DESTINATION share/touchstone/scenes
-  FILES_MATCHING REGEX "[.](json|urdf|sdf)$")
+  FILES_MATCHING REGEX "[.](json|urdf|sdf|config|xml|stl|dae|obj)$")
 
 # The package as a user gets it. Without dpkg-dev there is none to be made.
 find_program(DPKG_SHLIBDEPS dpkg-shlibdeps)

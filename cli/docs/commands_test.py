@@ -32,6 +32,7 @@ EXIT_CODES = {
 
 # Words in a command, and how the file that it supposes is made.
 KNOWN_FAILURE = "ode-cylinder-sphere-agreement-wrong-normal"
+MODELS = "ln -sfn simulation/scenes/models models"
 SUPPOSED = {
     "my_engine": "[ -e my_engine.c ] || cp candidates/example/cylinder_plane.c my_engine.c && "
                  "cc -shared -fPIC -I build/release/include my_engine.c -o my_engine.so -lm",
@@ -44,8 +45,8 @@ for case in judge.read("suite/touchstone-suite-1.csv.gz"):
     "poses.jsonl": "./touchstone replay cylinder-plane/lying/1/0 --candidates reference | "
                    """grep '^{' | tail -n 1 | sed 's/^{/{"id":"p1",/' > poses.jsonl""",
     "mine.jsonl": """echo '{"id":"p1","status":"none"}' > mine.jsonl""",
-    "robot.urdf": "cp simulation/scenes/gripper.urdf robot.urdf",
-    "world.sdf": "cp simulation/scenes/warehouse.sdf world.sdf",
+    "robot.urdf": f"cp simulation/scenes/gripper.urdf robot.urdf && {MODELS}",
+    "world.sdf": f"cp simulation/scenes/warehouse.sdf world.sdf && {MODELS}",
     "failures": f"mkdir failures && grep -m 1 {KNOWN_FAILURE} properties/known_failures.jsonl "
                 f"> failures/{KNOWN_FAILURE}.json",
     "--merge run": "./touchstone campaign --out run",

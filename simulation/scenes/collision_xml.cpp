@@ -50,30 +50,31 @@ std::size_t depth_of(std::string_view xml) {
 /// A shape's name and its lengths: attributes in URDF, elements in SDF.
 struct Field {
   std::string_view name;
-  int count;  ///< of numbers
+  int count;  ///< of numbers; 0: any text
   bool is_required = true;
 };
 struct ShapeForm {
   std::string_view name;
   std::vector<Field> fields;
-  bool is_read = true;  ///< or ignored, with a note, as meshes are
+  bool is_read = true;  ///< or ignored, with a note, as height fields are
 };
 
 const std::vector<ShapeForm> urdf_shapes = {{"sphere", {{"radius", 1}}},
                                             {"cylinder", {{"radius", 1}, {"length", 1}}},
                                             {"box", {{"size", 3}}},
-                                            {"mesh", {}, false}};
-const std::vector<ShapeForm> sdf_shapes = {{"sphere", {{"radius", 1}}},
-                                           {"cylinder", {{"radius", 1}, {"length", 1}}},
-                                           {"capsule", {{"radius", 1}, {"length", 1}}},
-                                           {"box", {{"size", 3}}},
-                                           {"plane", {{"normal", 3}, {"size", 2, false}}},
-                                           {"ellipsoid", {}, false},
-                                           {"mesh", {}, false},
-                                           {"heightmap", {}, false},
-                                           {"image", {}, false},
-                                           {"polyline", {}, false},
-                                           {"empty", {}, false}};
+                                            {"mesh", {{"filename", 0}, {"scale", 3, false}}}};
+const std::vector<ShapeForm> sdf_shapes = {
+    {"sphere", {{"radius", 1}}},
+    {"cylinder", {{"radius", 1}, {"length", 1}}},
+    {"capsule", {{"radius", 1}, {"length", 1}}},
+    {"box", {{"size", 3}}},
+    {"plane", {{"normal", 3}, {"size", 2, false}}},
+    {"ellipsoid", {}, false},
+    {"mesh", {{"uri", 0}, {"scale", 3, false}, {"submesh", 0, false}}},
+    {"heightmap", {}, false},
+    {"image", {}, false},
+    {"polyline", {}, false},
+    {"empty", {}, false}};
 
 constexpr std::size_t max_shown_bytes = 60;
 std::string shown_text(std::string_view text) {
@@ -129,7 +130,7 @@ void check_fields(const ptree& fields, const ShapeForm& form, const std::string&
       throw InvalidInput(path, given == 0 ? "missing" : "there more than once",
                          "must be there once");
     }
-    check_numbers(fields.get<std::string>(name), field.count, path);
+    if (field.count > 0) check_numbers(fields.get<std::string>(name), field.count, path);
   }
 }
 

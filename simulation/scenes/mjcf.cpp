@@ -10,7 +10,7 @@
 
 #include "properties/files/given_text.hpp"
 #include "reference/invalid_input.hpp"
-#include "simulation/scenes/robot_file.hpp"
+#include "simulation/scenes/mesh.hpp"
 
 #ifdef TOUCHSTONE_MUJOCO
 #include <mujoco/mujoco.h>
@@ -92,7 +92,7 @@ Pose within(const Pose& X_WB, const double* p, const double* q) {
   return {X_WB.position() + turn * to_vector(p), turn * Eigen::Quaterniond(q[0], q[1], q[2], q[3])};
 }
 
-/// Half lengths; nothing for a mesh, a height field or an ellipsoid.
+/// Half lengths; nothing for a height field or an ellipsoid.
 std::optional<Shape> shape_of(const mjModel& m, int geom) {
   const double* const size = m.geom_size + 3 * static_cast<std::ptrdiff_t>(geom);
   switch (m.geom_type[geom]) {
@@ -111,18 +111,17 @@ std::optional<Shape> shape_of(const mjModel& m, int geom) {
   }
 }
 
-/// Sum of the tetrahedra that its triangles form with the origin.
-double mesh_volume(const mjModel& m, int mesh) {
-  const auto vertex = [&](int face, int corner) {
-    const int index = m.mesh_vertadr[mesh] + m.mesh_face[3 * face + corner];
-    const float* const p = m.mesh_vert + 3 * static_cast<std::ptrdiff_t>(index);
-    return Vec3(p[0], p[1], p[2]);
-  };
-  double volume = 0;
-  for (int f = m.mesh_faceadr[mesh]; f < m.mesh_faceadr[mesh] + m.mesh_facenum[mesh]; ++f) {
-    volume += vertex(f, 0).cross(vertex(f, 1)).dot(vertex(f, 2)) / 6;
+Mesh mesh_of(const mjModel& m, int mesh) {
+  Mesh result;
+  for (int v = m.mesh_vertadr[mesh]; v < m.mesh_vertadr[mesh] + m.mesh_vertnum[mesh]; ++v) {
+    const float* const p = m.mesh_vert + 3 * static_cast<std::ptrdiff_t>(v);
+    result.points.emplace_back(p[0], p[1], p[2]);
   }
-  return std::abs(volume);
+  for (int f = m.mesh_faceadr[mesh]; f < m.mesh_faceadr[mesh] + m.mesh_facenum[mesh]; ++f) {
+    const int* const corners = m.mesh_face + 3 * static_cast<std::ptrdiff_t>(f);
+    result.triangles.push_back({corners[0], corners[1], corners[2]});
+  }
+  return result;
 }
 
 void leave_out(const Model& model, int geom, const std::string& name, RobotFile& result) {
@@ -131,10 +130,7 @@ void leave_out(const Model& model, int geom, const std::string& name, RobotFile&
   ++left.shapes;
   const double* const size = m.geom_size + 3 * static_cast<std::ptrdiff_t>(geom);
   const char* what = "a height field";
-  if (m.geom_type[geom] == mjGEOM_MESH && m.geom_dataid[geom] >= 0) {
-    what = "a mesh";
-    left.volume += mesh_volume(m, m.geom_dataid[geom]);
-  } else if (m.geom_type[geom] == mjGEOM_ELLIPSOID) {
+  if (m.geom_type[geom] == mjGEOM_ELLIPSOID) {
     what = "an ellipsoid";
     left.volume += 4 * std::numbers::pi / 3 * to_vector(size).prod();
   } else {
@@ -192,19 +188,19 @@ class Reading {
     for (int g = m_.body_geomadr[b]; g < m_.body_geomadr[b] + m_.body_geomnum[b]; ++g) {
       const std::string name = link.name + '/' + model_.name(mjOBJ_GEOM, "geom", g);
       if (!collides(m_, g)) continue;
-      const auto shape = shape_of(m_, g);
-      if (!shape) {
+      const Pose X_WG = within(link.pose, m_.geom_pos + 3 * static_cast<std::ptrdiff_t>(g),
+                               m_.geom_quat + 4 * static_cast<std::ptrdiff_t>(g));
+      if (m_.geom_type[g] == mjGEOM_MESH) {
+        link.shapes.push_back(hull(m_.geom_dataid[g], name, X_WG));
+      } else if (const auto shape = shape_of(m_, g)) {
+        link.shapes.push_back({name, *shape, X_WG});
+      } else {
         leave_out(model_, g, name, result_);
         continue;
       }
       frictionless_ += m_.geom_condim[g] == 1 ? 1 : 0;
-      const Pose X_WG = within(link.pose, m_.geom_pos + 3 * static_cast<std::ptrdiff_t>(g),
-                               m_.geom_quat + 4 * static_cast<std::ptrdiff_t>(g));
-      link.shapes.push_back({name,
-                             *shape,
-                             X_WG,
-                             m_.geom_friction[3 * static_cast<std::ptrdiff_t>(g)],
-                             {m_.geom_contype[g], m_.geom_conaffinity[g]}});
+      link.shapes.back().friction = m_.geom_friction[3 * static_cast<std::ptrdiff_t>(g)];
+      link.shapes.back().mask = {m_.geom_contype[g], m_.geom_conaffinity[g]};
     }
     if (m_.body_mass[b] > 0) {
       const auto of_body = [&](const mjtNum* all, int count) {
@@ -216,6 +212,14 @@ class Reading {
                   moments, result_);
     }
     result_.links.push_back(std::move(link));
+  }
+
+  LinkShape hull(int mesh, const std::string& name, const Pose& X_WG) {
+    try {
+      return hull_of(mesh_of(m_, mesh), model_.name(mjOBJ_MESH, "mesh", mesh), name, X_WG, result_);
+    } catch (const InvalidInput& e) {
+      throw e.within("geom " + name);
+    }
   }
 
   /// Position of the joint's limit relative to its default position; MuJoCo counts from `ref`.

@@ -25,7 +25,7 @@ TEST(Mjcf, GivesShapesJointsAndActuators) {
   const RobotFile robot = read_robot(scenes / "pincer.xml");
   EXPECT_EQ(robot.name, "pincer");
   EXPECT_EQ(robot.step, 0.004);
-  EXPECT_EQ(shape_count(robot), 5U);  // without the mesh and what collides with nothing
+  EXPECT_EQ(shape_count(robot), 6U);  // without what collides with nothing
   const LinkShape& pad = named(robot, "left_finger/left_pad");
   EXPECT_EQ(std::get<Cylinder>(pad.shape).half_length(), 0.07);
   EXPECT_NEAR((pad.pose.position() - Vec3(0.06, 0, 0.13)).norm(), 0, 1e-12);
@@ -42,13 +42,13 @@ TEST(Mjcf, GivesShapesJointsAndActuators) {
 
 TEST(Mjcf, SaysWhatItIgnoresAndHowMuchThatIs) {
   const RobotFile robot = read_robot(scenes / "pincer.xml");
-  EXPECT_THAT(robot.ignored, Contains("geom hand/wedge: a mesh"));
   EXPECT_THAT(robot.ignored, Contains("1 tendon: not read"));
   EXPECT_THAT(robot.ignored, Contains("1 sensor: not read"));
   EXPECT_THAT(robot.ignored, Contains("1 site: not read"));
-  // A tetrahedron of three edges of 30 mm at right angles.
-  EXPECT_NEAR(robot.left_out.volume, 0.03 * 0.03 * 0.03 / 6, 1e-9);
-  EXPECT_THAT(left_out_text(robot), HasSubstr("left out: 1 of 6 collision shapes ("));
+  const RobotFile egg = robot_of("egg.xml", R"(<mujoco><worldbody><body>
+    <geom type="ellipsoid" size="0.1 0.2 0.3"/><geom size="0.1"/></body></worldbody></mujoco>)");
+  EXPECT_THAT(egg.ignored, Contains("geom body 1/geom 0: an ellipsoid"));
+  EXPECT_EQ(left_out_text(egg), "left out: 1 of 2 collision shapes (86% of the volume)");
 }
 
 TEST(Mjcf, ABodyWithSeveralJointsGetsLinksInBetween) {

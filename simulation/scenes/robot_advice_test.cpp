@@ -96,6 +96,21 @@ TEST(Rover, GetsAdviceForItsWheelsAndItsFingers) {
   EXPECT_NE(chosen_for(choice, "wheel and ground"), "spheres:2");
 }
 
+TEST(CanGripper, GetsAdviceForTheCanThatItsMeshesGrip) {
+  RobotMotion motion;
+  motion.rates = {{"left_finger_joint", 0.1}, {"right_finger_joint", 0.1}, {"lift_joint", 0.02}};
+  motion.duration = 1;
+  const Choice choice = choice_of("can-gripper.urdf", motion, {"capsule", "prism:16"});
+  EXPECT_FALSE(choice.impossible);
+  EXPECT_NE(chosen_for(choice, "can and left_finger"), "nothing");
+  EXPECT_TRUE(has_need(choice, "can overlaps"));
+  // Its answer was asked for a can that the fingers hold and that stands on nothing.
+  const auto& bodies = choice.file.scene.bodies;
+  const auto can = std::ranges::find(bodies, "can", &Body::name) - bodies.begin();
+  const double height = choice.exact_run.frames.back()[can].pose.position().z();
+  EXPECT_GT(height, 0.06 + 0.01);
+}
+
 TEST(LoadingBay, GetsAdviceForTheCartsWheelsAndTheBarrel) {
   RobotMotion motion;
   for (const char* wheel : {"front_left", "front_right", "rear_left", "rear_right"}) {

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <cstring>
 #include <exception>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -159,11 +161,10 @@ Format format_of(const std::filesystem::path& file, const std::string& text) {
                      "must be MJCF, URDF or SDF: its root element is not mujoco, robot or sdf");
 }
 
-RobotFile read_format(Format format, const std::filesystem::path& file,
-                      const std::vector<std::filesystem::path>& folders) {
+RobotFile read_format(Format format, const std::filesystem::path& file, const Folders& folders) {
   switch (format) {
     case Format::urdf:
-      return read_urdf(file);
+      return read_urdf(file, folders);
     case Format::sdf:
       return read_sdf(file, folders);
     case Format::mjcf:
@@ -173,8 +174,8 @@ RobotFile read_format(Format format, const std::filesystem::path& file,
 }
 
 /// Runs in the process that reads: a robot, or why there is none, as bytes.
-std::string read_as_bytes(Format format, const std::filesystem::path& file,
-                          const std::vector<std::filesystem::path>& folders, int log) {
+std::string read_as_bytes(Format format, const std::filesystem::path& file, const Folders& folders,
+                          int log) {
   library_log = log;
   bound_memory();
   for (const int standard : {STDOUT_FILENO, STDERR_FILENO}) dup2(log, standard);
@@ -305,8 +306,60 @@ bool is_robot_file(const std::filesystem::path& file) {
   return false;
 }
 
-RobotFile read_robot(const std::filesystem::path& file,
-                     const std::vector<std::filesystem::path>& folders) {
+void now_reading(const std::string& file) {
+  if (library_log < 0 || ftruncate(library_log, 0) != 0) return;
+  lseek(library_log, 0, SEEK_SET);  // also of standard error, which shares it
+  const std::string text = "reading " + file + '\n';
+  if (write(library_log, text.data(), text.size()) < 0) fail("write");
+}
+
+namespace {
+
+/// Folders that a variable of the environment names, between colons; of these, folders below.
+void add_folders(const char* variable, const char* below, Folders& folders) {
+  const char* value = std::getenv(variable);
+  std::istringstream names(value ? value : "");
+  for (std::string name; std::getline(names, name, ':');) {
+    if (!name.empty()) folders.push_back(std::filesystem::path(name) / below);
+  }
+}
+
+}  // namespace
+
+Folders resource_folders(const Folders& given, const std::filesystem::path& file) {
+  Folders folders = given;
+  for (const char* variable : {"SDF_PATH", "GZ_SIM_RESOURCE_PATH", "GAZEBO_MODEL_PATH",
+                               "IGN_GAZEBO_RESOURCE_PATH", "ROS_PACKAGE_PATH"}) {
+    add_folders(variable, "", folders);
+  }
+  add_folders("AMENT_PREFIX_PATH", "share", folders);
+  for (std::filesystem::path& folder : folders) folder = std::filesystem::absolute(folder);
+  std::filesystem::path here = std::filesystem::absolute(file).parent_path();
+  folders.push_back(here);
+  folders.push_back(here / "models");
+  for (; here != here.parent_path(); here = here.parent_path()) {
+    folders.push_back(here.parent_path());
+  }
+  return folders;
+}
+
+std::filesystem::path find_resource(const std::string& uri, const Folders& folders) {
+  std::string name = uri;
+  for (const char* scheme : {"model://", "package://", "file://"}) {
+    if (name.starts_with(scheme)) name.erase(0, std::strlen(scheme));
+  }
+  std::error_code error;
+  if (std::filesystem::path(name).is_absolute()) {
+    return std::filesystem::exists(name, error) ? std::filesystem::path(name)
+                                                : std::filesystem::path();
+  }
+  for (const std::filesystem::path& folder : folders) {
+    if (std::filesystem::exists(folder / name, error)) return folder / name;
+  }
+  return {};
+}
+
+RobotFile read_robot(const std::filesystem::path& file, const Folders& folders) {
   const Format format = format_of(file, read_xml(file));
   const int log = memfd_create("library-log", MFD_CLOEXEC);
   if (log < 0) fail("memfd_create");

@@ -86,6 +86,8 @@ struct RobotFile {
   std::vector<std::string> ignored;
 };
 
+using Folders = std::vector<std::filesystem::path>;
+
 /// Bound on the links of a file, and on its joints.
 inline constexpr std::size_t max_links = 2000;
 
@@ -93,11 +95,17 @@ inline constexpr std::size_t max_links = 2000;
 bool is_robot_file(const std::filesystem::path& file);
 
 /// Reads URDF, SDF or MJCF, in a process of its own: whatever a library does to a bad file, nothing
-/// of it is seen here but InvalidInput with the element's name. Included models are looked for in
-/// the folders given, then in those of SDF_PATH, GZ_SIM_RESOURCE_PATH, GAZEBO_MODEL_PATH and
-/// ROS_PACKAGE_PATH, then beside the file.
-RobotFile read_robot(const std::filesystem::path& file,
-                     const std::vector<std::filesystem::path>& folders = {});
+/// of it is seen here but InvalidInput with the element's name. Included models, and meshes, are
+/// looked for as `resource_folders` says.
+RobotFile read_robot(const std::filesystem::path& file, const Folders& folders = {});
+
+/// Where to look for what a file names: in the folders given, in those of SDF_PATH,
+/// GZ_SIM_RESOURCE_PATH, GAZEBO_MODEL_PATH, IGN_GAZEBO_RESOURCE_PATH, ROS_PACKAGE_PATH and
+/// AMENT_PREFIX_PATH (there `share`), in that of the file, its folder `models`, and all above it.
+Folders resource_folders(const Folders& given, const std::filesystem::path& file);
+/// The file or folder that a URI names, after model://, package:// or file://; empty if there is
+/// none.
+std::filesystem::path find_resource(const std::string& uri, const Folders& folders);
 
 /// How a robot or world is simulated.
 struct RobotMotion {
@@ -129,9 +137,8 @@ std::string left_out_text(const RobotFile& robot);
 
 // The readers; only `read_robot` calls them. They may crash, hang and print.
 
-RobotFile read_urdf(const std::filesystem::path& file);
-RobotFile read_sdf(const std::filesystem::path& file,
-                   const std::vector<std::filesystem::path>& folders);
+RobotFile read_urdf(const std::filesystem::path& file, const Folders& folders);
+RobotFile read_sdf(const std::filesystem::path& file, const Folders& folders);
 RobotFile read_mjcf(const std::filesystem::path& file);
 
 /// Gives a link with its mass and shapes the moments and products of inertia of its file, which are
@@ -154,6 +161,8 @@ class UnreadOfJoints {
 /// What a library has said on standard error up to now, in one line: its first error. Empty outside
 /// of `read_robot`.
 std::string library_complaint();
+/// Puts the name of another file in place of that: what `read_robot` says if its process ends now.
+void now_reading(const std::string& file);
 
 // Checks before a library reads:
 

@@ -445,8 +445,8 @@ class SceneMaker {
       throw InvalidInput(
           "scene", '"' + robot_.name + '"',
           robot_.left_out.shapes > 0
-              ? "must hold a collision shape that can be simulated, not only meshes: "
-                "add cylinders, boxes, spheres or capsules"
+              ? "must hold a collision shape that can be simulated, not only ellipsoids and height "
+                "fields: add cylinders, boxes, spheres, capsules or meshes"
               : "must hold at least one collision shape");
     }
     constexpr double max_states = 4e6;  // a state of a body takes 200 bytes

@@ -353,12 +353,13 @@ TEST(RobotScene, WhatOverlapsAtTheStartNeverTouches) {
   EXPECT_THAT(scene.apart, testing::ElementsAre(inside));
 }
 
-TEST(RobotScene, ARobotOfMeshesAloneIsRefused) {
+TEST(RobotScene, ARobotOfEllipsoidsAloneIsRefused) {
   RobotFile robot;
-  robot.name = "meshes";
+  robot.name = "eggs";
   robot.links = {{"base"}};
   robot.left_out.shapes = 1;
-  EXPECT_THAT(robot_refusal(robot), HasSubstr("not only meshes: add cylinders"));
+  EXPECT_THAT(robot_refusal(robot),
+              HasSubstr("not only ellipsoids and height fields: add cylinders"));
 }
 
 TEST(RobotScene, ErrorsNameTheLinkIfTheyAreOfOne) {

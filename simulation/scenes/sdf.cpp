@@ -13,14 +13,13 @@
 #include "properties/files/disk.hpp"
 #include "properties/files/given_text.hpp"
 #include "reference/invalid_input.hpp"
-#include "simulation/scenes/robot_file.hpp"
+#include "simulation/scenes/mesh.hpp"
 
 namespace touchstone {
 namespace {
 
 using boost::property_tree::ptree;
 using ignition::math::Pose3d;
-using Folders = std::vector<std::filesystem::path>;
 
 void refuse(const sdf::Errors& errors, const std::string& field) {
   if (errors.empty()) return;
@@ -54,7 +53,7 @@ Pose to_pose(const Pose3d& p) {
           Eigen::Quaterniond(p.Rot().W(), p.Rot().X(), p.Rot().Y(), p.Rot().Z())};
 }
 
-/// Lengths in SDF are full lengths. Nothing for a mesh or a heightmap.
+/// Lengths in SDF are full lengths. Nothing for a heightmap.
 std::optional<Shape> shape_of(const sdf::Geometry& geometry) {
   if (const auto* s = geometry.SphereShape()) return Sphere(s->Radius());
   if (const auto* s = geometry.CylinderShape()) return Cylinder(s->Radius(), s->Length() / 2);
@@ -81,8 +80,16 @@ void leave_out(const sdf::Geometry& geometry, const std::string& name, RobotFile
     result.left_out.volume += 4 * std::numbers::pi / 3 * r.prod();
     return;
   }
-  result.ignored.push_back(fmt::format("collision {}: a mesh, a heightmap or another shape", name));
+  result.ignored.push_back(fmt::format("collision {}: a heightmap or another shape", name));
   ++result.left_out.unknown;
+}
+
+Mesh mesh_of(const sdf::Mesh& mesh, const Folders& folders) {
+  if (!mesh.Submesh().empty()) {
+    throw InvalidInput("mesh.submesh", '"' + printable(mesh.Submesh(), 60) + '"',
+                       "must be left out: a mesh is read as a whole; save this part by itself");
+  }
+  return named_mesh(mesh.Uri(), to_vector(mesh.Scale()), mesh.FilePath(), folders);
 }
 
 /// Is the element at a path below this one in the file, and not false or zero?
@@ -128,7 +135,7 @@ void note_unread(const sdf::Link& link, const std::string& name, RobotFile& resu
 }
 
 void add_link(const sdf::Link& link, const std::string& link_name, const Pose3d& X_WL,
-              bool is_static, RobotFile& result) {
+              bool is_static, const Folders& folders, RobotFile& result) {
   Link made{link_name, to_pose(X_WL)};
   made.fixed = is_static;
   const auto& given = link.Inertial();
@@ -137,16 +144,18 @@ void add_link(const sdf::Link& link, const std::string& link_name, const Pose3d&
     const sdf::Collision& collision = *link.CollisionByIndex(k);
     const std::string name = link_name + '/' + collision.Name();
     try {
-      const auto shape = shape_of(*collision.Geom());
-      if (!shape) {
+      const Pose X_WC = to_pose(X_WL * resolved(collision.SemanticPose(), name));
+      if (const sdf::Mesh* mesh = collision.Geom()->MeshShape()) {
+        made.shapes.push_back(hull_of(mesh_of(*mesh, folders), mesh->Uri(), name, X_WC, result));
+      } else if (const auto shape = shape_of(*collision.Geom())) {
+        made.shapes.push_back({name, *shape, X_WC});
+      } else {
         leave_out(*collision.Geom(), name, result);
         continue;
       }
-      const Pose3d X_WC = X_WL * resolved(collision.SemanticPose(), name);
-      made.shapes.push_back({name, *shape, to_pose(X_WC)});
       add_surface(collision.Element(), made.shapes.back(), result);
       // Gazebo's planes do not move, whatever the model.
-      made.fixed = made.fixed || std::holds_alternative<Plane>(*shape);
+      made.fixed = made.fixed || std::holds_alternative<Plane>(made.shapes.back().shape);
     } catch (const InvalidInput& e) {
       throw e.within("collision " + name);
     }
@@ -250,7 +259,7 @@ void add_joint(const sdf::Joint& joint, const std::string& path, const Pose3d& X
 }
 
 void add_model(const sdf::Model& model, const std::string& outer, const Pose3d& X_WO,
-               bool is_static, RobotFile& result) {
+               bool is_static, const Folders& folders, RobotFile& result) {
   const std::string path = outer + model.Name();
   const Pose3d X_WM = X_WO * resolved(model.SemanticPose(), path);
   is_static = is_static || model.Static();
@@ -261,10 +270,10 @@ void add_model(const sdf::Model& model, const std::string& outer, const Pose3d& 
   for (std::uint64_t i = 0; i < model.LinkCount(); ++i) {
     const sdf::Link& link = *model.LinkByIndex(i);
     const std::string name = path + "::" + link.Name();
-    add_link(link, name, X_WM * resolved(link.SemanticPose(), name), is_static, result);
+    add_link(link, name, X_WM * resolved(link.SemanticPose(), name), is_static, folders, result);
   }
   for (std::uint64_t i = 0; i < model.ModelCount(); ++i) {
-    add_model(*model.ModelByIndex(i), path + "::", X_WM, is_static, result);
+    add_model(*model.ModelByIndex(i), path + "::", X_WM, is_static, folders, result);
   }
   for (std::uint64_t i = 0; i < model.JointCount(); ++i) {
     add_joint(*model.JointByIndex(i), path, X_WM, result);
@@ -314,32 +323,6 @@ void note_unread_of_joints(const sdf::Root& root, RobotFile& result) {
   unread.note(result);
 }
 
-/// Folders that a variable of the environment names, between colons.
-void add_folders(const char* variable, Folders& folders) {
-  const char* value = std::getenv(variable);
-  std::istringstream names(value ? value : "");
-  for (std::string name; std::getline(names, name, ':');) {
-    if (!name.empty()) folders.emplace_back(name);
-  }
-}
-
-/// What an include's URI names; empty if there is no such file or folder.
-std::filesystem::path resolved_uri(const std::string& uri, const Folders& folders) {
-  std::string name = uri;
-  for (const char* scheme : {"model://", "package://", "file://"}) {
-    if (name.starts_with(scheme)) name.erase(0, std::strlen(scheme));
-  }
-  std::error_code error;
-  if (std::filesystem::path(name).is_absolute()) {
-    return std::filesystem::exists(name, error) ? std::filesystem::path(name)
-                                                : std::filesystem::path();
-  }
-  for (const std::filesystem::path& folder : folders) {
-    if (std::filesystem::exists(folder / name, error)) return folder / name;
-  }
-  return {};
-}
-
 /// Checks a file and what it includes, each before libsdformat reads it.
 class IncludedFiles {
  public:
@@ -386,7 +369,7 @@ class IncludedFiles {
                          "must be on this machine: download the model and name its folder with "
                          "--model-path");
     }
-    std::filesystem::path model = uri.empty() ? "" : resolved_uri(uri, folders_);
+    std::filesystem::path model = uri.empty() ? "" : find_resource(uri, folders_);
     if (model.empty()) {
       throw InvalidInput("include.uri", shown,
                          "must name a model in a folder of --model-path, SDF_PATH, "
@@ -416,18 +399,10 @@ class IncludedFiles {
 }  // namespace
 
 RobotFile read_sdf(const std::filesystem::path& file, const Folders& given) {
-  Folders folders = given;
-  for (const char* variable : {"SDF_PATH", "GZ_SIM_RESOURCE_PATH", "GAZEBO_MODEL_PATH",
-                               "IGN_GAZEBO_RESOURCE_PATH", "ROS_PACKAGE_PATH"}) {
-    add_folders(variable, folders);
-  }
-  for (std::filesystem::path& folder : folders) folder = std::filesystem::absolute(folder);
+  const Folders folders = resource_folders(given, file);
   // By a relative name libsdformat finds its own description first, which has one of world.sdf and
   // model.sdf.
   const std::filesystem::path here = std::filesystem::absolute(file);
-  folders.push_back(here.parent_path());
-  folders.push_back(here.parent_path() / "models");
-  folders.push_back(here.parent_path().parent_path());
   IncludedFiles(folders).check(here);
 
   // libsdformat looks there before it asks, also for files that were not checked. This process is
@@ -436,7 +411,7 @@ RobotFile read_sdf(const std::filesystem::path& file, const Folders& given) {
   std::filesystem::current_path("/");
   sdf::ParserConfig config;
   config.SetFindCallback(
-      [&](const std::string& uri) { return resolved_uri(uri, folders).string(); });
+      [&](const std::string& uri) { return find_resource(uri, folders).string(); });
   sdf::Root root;
   const sdf::Errors errors = root.Load(here.string(), config);
   if (const sdf::Error* error = first_fault(errors)) {
@@ -450,7 +425,7 @@ RobotFile read_sdf(const std::filesystem::path& file, const Folders& given) {
   result.name = file.stem().string();
   if (const sdf::Model* model = root.Model()) {
     result.name = model->Name();
-    add_model(*model, "", Pose3d::Zero, false, result);
+    add_model(*model, "", Pose3d::Zero, false, folders, result);
   }
   if (root.WorldCount() > 0) {
     const sdf::World& world = *root.WorldByIndex(0);
@@ -458,7 +433,7 @@ RobotFile read_sdf(const std::filesystem::path& file, const Folders& given) {
     result.is_world = true;
     result.gravity = to_vector(world.Gravity());
     for (std::uint64_t i = 0; i < world.ModelCount(); ++i) {
-      add_model(*world.ModelByIndex(i), "", Pose3d::Zero, false, result);
+      add_model(*world.ModelByIndex(i), "", Pose3d::Zero, false, folders, result);
     }
   }
   for (std::uint64_t w = 1; w < root.WorldCount(); ++w) {

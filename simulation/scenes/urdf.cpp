@@ -1,13 +1,12 @@
 #include <boost/property_tree/ptree.hpp>
 #include <fmt/format.h>
-#include <optional>
 #include <set>
 #include <sstream>
 #include <urdf_parser/urdf_parser.h>
 
 #include "properties/files/given_text.hpp"
 #include "reference/invalid_input.hpp"
-#include "simulation/scenes/robot_file.hpp"
+#include "simulation/scenes/mesh.hpp"
 
 namespace touchstone {
 namespace {
@@ -25,8 +24,8 @@ Pose to_pose(const Eigen::Isometry3d& X) {
   return {X.translation(), Eigen::Quaterniond(X.rotation())};
 }
 
-/// Lengths in URDF are full lengths. Nothing for a mesh.
-std::optional<Shape> shape_of(const urdf::Geometry& geometry) {
+/// Lengths in URDF are full lengths. Not for a mesh.
+Shape shape_of(const urdf::Geometry& geometry) {
   switch (geometry.type) {
     case urdf::Geometry::SPHERE:
       return Sphere(static_cast<const urdf::Sphere&>(geometry).radius);
@@ -34,33 +33,41 @@ std::optional<Shape> shape_of(const urdf::Geometry& geometry) {
       const urdf::Vector3& side = static_cast<const urdf::Box&>(geometry).dim;
       return Box(Vec3(side.x, side.y, side.z) / 2);
     }
-    case urdf::Geometry::CYLINDER: {
+    default: {
       const auto& c = static_cast<const urdf::Cylinder&>(geometry);
       return Cylinder(c.radius, c.length / 2);
     }
-    default:
-      return std::nullopt;
   }
 }
 
+/// The file that is read, and where to look for what it names.
+struct Source {
+  std::filesystem::path file;
+  Folders folders;
+};
+
 /// Adds a link's own shapes and mass.
-int add_link(const urdf::Link& link, const Eigen::Isometry3d& X_RL, RobotFile& result) {
+int add_link(const urdf::Link& link, const Eigen::Isometry3d& X_RL, const Source& source,
+             RobotFile& result) {
   Link made{link.name, to_pose(X_RL)};
   for (std::size_t i = 0; i < link.collision_array.size(); ++i) {
     const urdf::Collision& collision = *link.collision_array[i];
     const std::string name =
         link.name + '/' + (collision.name.empty() ? std::to_string(i + 1) : collision.name);
     if (!collision.geometry) continue;
+    const Pose X_RC = to_pose(X_RL * isometry(collision.origin));
     try {
-      if (const auto shape = shape_of(*collision.geometry)) {
-        made.shapes.push_back({name, *shape, to_pose(X_RL * isometry(collision.origin))});
-        continue;
+      if (collision.geometry->type == urdf::Geometry::MESH) {
+        const auto& given = static_cast<const urdf::Mesh&>(*collision.geometry);
+        const Mesh mesh = named_mesh(given.filename, {given.scale.x, given.scale.y, given.scale.z},
+                                     source.file, source.folders);
+        made.shapes.push_back(hull_of(mesh, given.filename, name, X_RC, result));
+      } else {
+        made.shapes.push_back({name, shape_of(*collision.geometry), X_RC});
       }
     } catch (const InvalidInput& e) {
       throw e.within("collision " + name);
     }
-    result.ignored.push_back(fmt::format("collision {}: a mesh", name));
-    ++result.left_out.shapes, ++result.left_out.unknown;
   }
   if (const auto& given = link.inertial) {
     made.mass = given->mass;
@@ -134,18 +141,18 @@ void add_joint(const urdf::Joint& joint, int parent, int child, const Eigen::Iso
 }
 
 void add_branch(const urdf::Link& link, const Eigen::Isometry3d& X_RL, int joints_from_root,
-                RobotFile& result) {
+                const Source& source, RobotFile& result) {
   constexpr int max_joints = 1000;
   if (joints_from_root > max_joints) {
     throw InvalidInput("link", '"' + link.name + '"',
                        fmt::format("must be at most {} joints from the root", max_joints));
   }
-  const int index = add_link(link, X_RL, result);
+  const int index = add_link(link, X_RL, source, result);
   for (std::size_t i = 0; i < link.child_joints.size(); ++i) {
     const urdf::Joint& joint = *link.child_joints[i];
     const Eigen::Isometry3d X_RJ = X_RL * isometry(joint.parent_to_joint_origin_transform);
     const int child = static_cast<int>(result.links.size());
-    add_branch(*link.child_links[i], X_RJ, joints_from_root + 1, result);
+    add_branch(*link.child_links[i], X_RJ, joints_from_root + 1, source, result);
     add_joint(joint, index, child, X_RJ, result);
   }
 }
@@ -220,7 +227,7 @@ void refuse_missing_links(const urdf::ModelInterface& robot, const RobotFile& re
 
 }  // namespace
 
-RobotFile read_urdf(const std::filesystem::path& file) {
+RobotFile read_urdf(const std::filesystem::path& file, const Folders& folders) {
   const std::string text = read_xml(file);
   if (text.find('%') != text.npos) {
     // urdfdom 3.0.1 passes what it complains of to printf as the format: "%n" ends the process.
@@ -243,7 +250,8 @@ RobotFile read_urdf(const std::filesystem::path& file) {
   RobotFile result;
   result.name = robot->getName();
   refuse_second_parents(*robot);
-  add_branch(*robot->getRoot(), Eigen::Isometry3d::Identity(), 0, result);
+  add_branch(*robot->getRoot(), Eigen::Isometry3d::Identity(), 0,
+             {file, resource_folders(folders, file)}, result);
   refuse_missing_links(*robot, result);
   UnreadOfJoints unread;
   for (const auto& [name, joint] : robot->joints_) {
