@@ -11,6 +11,11 @@ expect 0 '"id":"cylinder-plane/lying/1/1"' export $lying --count 2
 expect 2 '--out is ".*/truth.txt": must end in .jsonl, .csv or .npz' export --out "$folder/truth.txt"
 expect 2 '--format is "xml": must be one of' export --format xml
 expect 2 '--suite' export --suite --count 3
+expect 0 '^TEST_F(CylinderPlane, Lying)' export --as gtest --engine bullet --pair cylinder-plane
+expect 2 '--as is "rust": must be one of gtest, js' export --as rust --engine ode
+expect 2 '--engine is "ode": must be one of jolt, .* for --as js' export --as js --engine ode
+expect 2 '--engine is missing: must name the engine' export --as gtest
+expect 2 '--pair is "cylinder-plane": must be one that havok knows' export --as js --engine havok --pair cylinder-plane
 expect 2 '--out.*No space left' export $lying --count 1 --format csv --out /dev/full
 
 printf '{"id":"cylinder-plane/lying/1/0","status":"none"}\nno JSON\n' >"$folder/given.jsonl"

@@ -70,19 +70,22 @@ class Chooser {
  public:
   explicit Chooser(const IdiomQuestion& question) : question_(question) {}
 
-  /// Of so many draws the first that the engine gets wrong, or the first, with small numbers.
+  /// One of so many draws, with small numbers: the first that the engine gets wrong in floats, else
+  /// the first that it gets wrong, else the first.
   std::optional<IdiomCase> case_of(const PoseClass& pose_class) const {
-    std::optional<IdiomCase> chosen;
+    std::optional<IdiomCase> first, wrong;
     for (std::uint64_t i = 0; i < draws; ++i) {
       const Identity identity(pose_class, question_.seed, i);
       const auto drawn = judged(identity, make_configuration(identity));
       if (!drawn || meeting(*drawn).kind == Meeting::Kind::near) continue;
-      if (!chosen) chosen = drawn;
+      if (!first) first = drawn;
       if (drawn->verdict == "right") continue;
-      chosen = drawn;
-      break;
+      const IdiomCase small = rounded(*drawn);
+      if (in_float(small.configuration)) return small;
+      if (!wrong) wrong = small;
     }
-    return chosen ? std::optional(rounded(*chosen)) : std::nullopt;
+    if (wrong) return wrong;
+    return first ? std::optional(rounded(*first)) : std::nullopt;
   }
 
   IdiomCase simplest(const IdiomCase& given) const {
@@ -205,13 +208,20 @@ std::vector<IdiomCase> idiom_cases(const IdiomQuestion& question) {
     };
     return rank(a) < rank(b);
   });
-  if (cases.size() > question.limit)
-    cases.erase(cases.begin() + static_cast<long>(question.limit), cases.end());
-  for (IdiomCase& c : cases) c = chooser.simplest(c);
-  std::stable_sort(cases.begin(), cases.end(), [](const IdiomCase& a, const IdiomCase& b) {
+  std::vector<IdiomCase> result;
+  for (const IdiomCase& rounded : cases) {
+    if (result.size() == question.limit) break;
+    IdiomCase next = chooser.simplest(rounded);
+    // Arrangements that differ in nothing but their numbers may have become the same.
+    const bool is_known = std::any_of(result.begin(), result.end(), [&](const IdiomCase& c) {
+      return hash_of(c.configuration) == hash_of(next.configuration);
+    });
+    if (!is_known) result.push_back(std::move(next));
+  }
+  std::stable_sort(result.begin(), result.end(), [](const IdiomCase& a, const IdiomCase& b) {
     return pair_of(a.configuration) < pair_of(b.configuration);
   });
-  return cases;
+  return result;
 }
 
 }  // namespace touchstone
