@@ -150,7 +150,7 @@ TEST(FirstTouch, RefusesAWidthThatIsNone) {
 
 TEST(TruthAfterASweep, IsThatOfThePoseItself) {
   Random random(5);
-  for (const Pair pair : known_pairs) {
+  for (const Pair pair : all_pairs) {
     for (int i = 0; i < 20; ++i) {
       const Configuration c = any_pose(pair, random);
       const Vec3 sweep = larger_size(c) * random.direction();
@@ -207,7 +207,7 @@ TEST_P(FirstTouchOf, RandomSweepsIsProvenFromBothSides) {
   EXPECT_LE(undecided, static_cast<int>(count / 20));
 }
 
-INSTANTIATE_TEST_SUITE_P(Pairs, FirstTouchOf, testing::ValuesIn(known_pairs), name_of_other);
+INSTANTIATE_TEST_SUITE_P(Pairs, FirstTouchOf, testing::ValuesIn(all_pairs), name_of_other);
 
 // With a spin.
 
@@ -225,7 +225,7 @@ TEST(FirstTouch, OfATurningCanIsWhereTrigonometryPutsIt) {
 
 TEST(FirstTouch, OfASlowTurnIsAlmostThatOfNone) {
   Random random(7);
-  for (const Pair pair : known_pairs) {
+  for (const Pair pair : all_pairs) {
     for (int i = 0; i < 5; ++i) {
       Configuration c = any_pose(pair, random);
       const Vec3 sweep = 8 * larger_size(c) * random.direction();
