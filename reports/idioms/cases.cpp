@@ -14,6 +14,7 @@
 #include "reference/invalid_input.hpp"
 #include "reports/campaign.hpp"
 #include "reports/reproducer/texts.hpp"
+#include "reports/test_data/test_data.hpp"
 
 namespace touchstone {
 namespace {
@@ -28,7 +29,7 @@ constexpr double sure = 3;
 
 /// How the bodies meet, which must stay as it is when numbers become smaller.
 struct Meeting {
-  enum class Kind { apart, near, touching, overlapping } kind;
+  enum class Kind { apart, near, touching, shallow, deep } kind;
   oracle::Ties ties;
   oracle::Alignment to_a;
   std::array<oracle::Alignment, 3> to_b;
@@ -40,10 +41,12 @@ struct Meeting {
 Meeting meeting_of(const Configuration& c, const oracle::Truth& truth, double tolerance) {
   const oracle::Enclosure& distance = truth.signed_distance;
   using enum Meeting::Kind;
-  const auto kind = distance.lo == 0 && distance.hi == 0      ? touching
-                    : distance.midpoint() < -sure * tolerance ? overlapping
-                    : distance.midpoint() > sure * tolerance  ? apart
-                                                              : near;
+  const double middle = distance.midpoint();
+  const auto kind = distance.lo == 0 && distance.hi == 0 ? touching
+                    : middle < -smaller_size(c) / 4      ? deep
+                    : middle < -sure * tolerance         ? shallow
+                    : middle > sure * tolerance          ? apart
+                                                         : near;
   const oracle::OptimalNormal& n = truth.normals.front();
   return {kind, truth.ties, n.to_a, n.to_b, n.support_b.size(), oracle::contact_patch(c, n).kind()};
 }
@@ -173,7 +176,9 @@ class Chooser {
   /// Moves A by the signed distance: exactly, where the normal lies along an axis of the world.
   static void touch(Configuration& c) {
     const oracle::Truth truth = oracle::truth(as_asked(c));
-    const Vec3 by = -truth.signed_distance.midpoint() * truth.normals.front().n;
+    const Vec3 n = truth.normals.front().n.unaryExpr(
+        [](double x) { return std::abs(x) < negligible_component ? 0 : x; });
+    const Vec3 by = -truth.signed_distance.midpoint() * n;
     c.pose_a = Pose(c.pose_a.position() + by, c.pose_a.orientation());
   }
 

@@ -32,27 +32,32 @@ struct Idiom {
   std::string_view name;
   const Language& language;
   const std::string_view& frame;
-  Texts texts;  ///< of every file
+  std::string_view marker;  ///< that a program's template has if it can be written so
+  Texts texts;              ///< of every file
 };
 
 const std::vector<Idiom>& all_idioms() {
-  static const std::vector<Idiom> all = {
-      {"gtest",
-       cpp,
-       tests_cpp_template,
-       {{"program", "cylinder_contacts_test"},
-        {"and_libraries", " -lgtest_main -lgtest"},
-        {"and_packages", " libgtest-dev"},
-        {"override", " override"}}},
-      {"js", javascript, tests_mjs_template, {{"program", "cylinder_contacts.test"}}}};
+  static const std::vector<Idiom> all = {{"gtest",
+                                          cpp,
+                                          tests_cpp_template,
+                                          "@override@",
+                                          {{"program", "cylinder_contacts_test"},
+                                           {"and_libraries", " -lgtest_main -lgtest"},
+                                           {"and_packages", " libgtest-dev"},
+                                           {"override", " override"}}},
+                                         {"doctest", cpp, tests_cpp_template, "@case@", {}},
+                                         {"js",
+                                          javascript,
+                                          tests_mjs_template,
+                                          "@question@",
+                                          {{"program", "cylinder_contacts.test"}}}};
   return all;
 }
 
 /// Can its part that asks stand in a class, or a function, of its own for each pair?
 bool fits(const Program& program, const Idiom& idiom) {
   return &program.language == &idiom.language && program.engine != "jolt-margin" &&
-         (&program.language == &javascript ||
-          program.source.find("@override@") != program.source.npos);
+         program.source.find(idiom.marker) != program.source.npos;
 }
 
 const Program& program_of(const Idiom& idiom, const std::string& engine) {
@@ -103,11 +108,11 @@ std::string comment(std::string_view remark, std::string_view text) {
 }
 
 /// Each line that is not empty, moved to the right.
-std::string indented(std::string_view text, std::size_t by) {
+std::string indented(std::string_view text, std::string_view by) {
   std::string result;
   for (const std::string_view line : split(text, '\n')) {
     if (!result.empty()) result += '\n';
-    if (!line.empty()) result += std::string(by, ' ') + std::string(line);
+    if (!line.empty()) result += std::string(by) + std::string(line);
   }
   return result;
 }
@@ -219,7 +224,7 @@ Texts case_texts(const IdiomCase& c, const std::string& engine, const Idiom& idi
   sentences += fmt::format(" (Rounded from {}.)", to_string(c.identity));
   texts["sentences"] = comment(idiom.language.remark, sentences);
   texts["title"] = of.arrangement->name;
-  texts["name"] = camel_case(of.arrangement->name);
+  texts["test_name"] = camel_case(of.arrangement->name);
   for (const std::string body : {"a", "b"}) {
     texts["turn_" + body] = texts[(habit.real_part_first ? "orientation_" : "xyzw_") + body];
   }
@@ -228,6 +233,25 @@ Texts case_texts(const IdiomCase& c, const std::string& engine, const Idiom& idi
   texts["float_tolerance"] = fmt::format("{:.2g}", c.float_tolerance);
   texts["verdict"] = c.verdict;
   return texts;
+}
+
+/// What the tests of Jolt have beside that, whose judge is in each.
+Texts jolt_texts(const IdiomCase& c, const Bar& bar) {
+  Texts texts = truth_texts(c.configuration, c.truth, bar, NumberStyle::hexadecimal);
+  const Vec3 axis = Vec3::Zero() - renamed(c.truth.normals.front().n, 'y');
+  texts["true_axis_float"] =
+      fmt::format("{:#.9g}f, {:#.9g}f, {:#.9g}f", axis.x(), axis.y(), axis.z());
+  texts["allowed_float"] = fmt::format("{:#.2g}f", c.float_tolerance);
+  texts["allowed_words"] += ", and what rounding to float does";
+  const bool fails = c.verdict != "right" && c.verdict != "off-body";  // it looks at no points
+  texts["decorator"] = fails ? " * doctest::should_fail()" : "";
+  return texts;
+}
+
+/// How the bodies lie, as a tag of Jolt's tests.
+std::string_view tag_of_distance(const IdiomCase& c) {
+  const double distance = c.truth.signed_distance.midpoint();
+  return distance > c.tolerance ? "apart" : distance < -c.tolerance ? "overlapping" : "touching";
 }
 
 /// What writes the same file again.
@@ -277,7 +301,8 @@ std::string idiom_file(const IdiomRequest& request) {
                        "must be one with arrangements of poses");
   }
 
-  const std::string version = candidate ? candidate->version : "(not installed)";
+  std::string version = candidate ? candidate->version : "(not installed)";
+  if (candidate && find_npm_engine(family_of(program.candidate))) version += " of npm";
   Texts texts = idiom.texts;
   texts.merge(Texts{{"engine", std::string(program.title)},
                     {"engine_version", version},
@@ -307,13 +332,16 @@ std::string idiom_file(const IdiomRequest& request) {
   };
   texts["answer"] = fill_template(section(idiom.language.shared, "answer"), of_all, texts);
   texts["head"] = frame("head", of_all);
-  constexpr std::string_view asked = "@question@", judged = "@judgement@";
+  const bool is_doctest = idiom.name == "doctest";
+  const std::string_view asked = is_doctest ? "@case@" : "@question@";
+  const std::string_view judged = is_doctest ? "@end@" : "@judgement@";
   const std::string_view source = program.source;
   const auto question_at = source.find(asked);
   const std::string_view once = source.substr(0, question_at);
   const std::string_view asking =
       source.substr(question_at + asked.size(), source.find(judged) - question_at - asked.size());
-  std::string file = fill_template(once, of_all, texts) + "\n\n" + frame("judge", of_all) + "\n";
+  std::string file = fill_template(once, of_all, texts) + '\n';
+  if (!is_doctest) file += '\n' + frame("judge", of_all) + '\n';
   std::string shape;
   for (const IdiomCase& c : cases) {
     for (auto& [name, text] :
@@ -323,7 +351,17 @@ std::string idiom_file(const IdiomRequest& request) {
     for (auto& [name, text] : npm_texts(program, program.engine, candidate, c.configuration)) {
       texts[name] = text;
     }
-    const Tags of_case = tags_of(c);
+    Tags of_case = tags_of(c);
+    if (is_doctest) {
+      for (auto& [name, text] : jolt_texts(c, request.bar)) texts[name] = text;
+      texts["turn_a_float"] = texts["xyzw_a_float"];
+      texts["turn_b_float"] = texts["xyzw_b_float"];
+      of_case.push_back(tag_of_distance(c));
+      file +=
+          fmt::format("{}{}\n{}\n", &c == &cases.front() ? "" : "\n",
+                      indented(texts["sentences"], "\t"), fill_template(asking, of_case, texts));
+      continue;
+    }
     if (texts["shape_b"] != shape) {
       shape = texts["shape_b"];
       Texts symbolic = texts;
@@ -333,11 +371,12 @@ std::string idiom_file(const IdiomRequest& request) {
         symbolic["mjcf"] = fill_template(mjcf_template, of_case, symbolic);
       }
       const std::string lines = fill_template(asking, of_case, symbolic);
-      texts["asking"] = indented(lines.substr(lines.find_first_not_of('\n')), 2);
+      texts["asking"] = indented(lines.substr(lines.find_first_not_of('\n')), "  ");
       file += '\n' + frame("pair", of_case) + '\n';
     }
     file += '\n' + frame("case", of_case) + '\n';
   }
+  if (is_doctest) return file + std::string(source.substr(source.find(judged) + judged.size()));
   const std::string foot = frame("foot", of_all);
   return file + (foot.empty() ? "" : '\n' + foot + '\n');
 }

@@ -172,7 +172,8 @@ std::string reproducer(std::string_view name, std::string_view language, const C
   const Candidate* const candidate =
       askable_candidate(of_engine == programs().end() ? name : of_engine->candidate);
   const Program& program = find_program(name, language, c, candidate);
-  if (program.tags == "doctest") require_floats(name, c);
+  const bool is_test = program.tags.starts_with("doctest");
+  if (is_test) require_floats(name, c);
   const std::string title(program.title.empty() ? "The candidate" : program.title);
 
   // Its numbers are those that the engine gets, which are rounded, and so is the truth of them.
@@ -190,8 +191,8 @@ std::string reproducer(std::string_view name, std::string_view language, const C
       tags.end(),
       {shape, tag_of_distance(truth.signed_distance.midpoint(), allowed, bar.threshold),
        candidate && candidate->command() && candidate->command()->in_frames ? "frames" : "lines",
-       program.engine.empty() ? "plugin" : "engine",
-       program.tags == "doctest" ? "test" : "program"});
+       program.engine.empty() ? "plugin" : "engine", is_test ? "test" : "program"});
+  const bool is_round = shape == "cylinder" || shape == "capsule";
   texts.merge(
       Texts{{"engine", title},
             // A backslash at a line's end would make the next one a part of the comment.
@@ -202,6 +203,12 @@ std::string reproducer(std::string_view name, std::string_view language, const C
             {"and_libraries", ""},
             {"and_packages", ""},
             {"override", ""},
+            {"case", ""},
+            {"end", ""},
+            {"test_name", ""},
+            {"decorator", ""},
+            {"turn_a_float", texts["a_along_y_float"]},
+            {"turn_b_float", texts[(is_round ? "b_along_y" : "xyzw_b") + std::string("_float")]},
             {"seen", seen(title, numbers, candidate, c, truth, bar, limits)}});
   const auto part = [&](std::string_view source) { return fill_template(source, tags, texts); };
   texts["mjcf"] = part(mjcf_template);
