@@ -32,6 +32,7 @@
 //   format      'frames' (default), or 'lines': requests and answers as text, for debugging
 //   parameter   for a family: { meaning: 'margin, metres', min: 0, max: 1, usual: 0.01 }
 //   models      what replaces the shapes, in a simplified model
+//   roundings   see below
 //
 //   prepare(a, b, threshold, parameter)       makes two shapes ready, untimed, and returns what
 //       `query` needs ({ a, b, threshold } by default); null: unsupported. Contacts up to
@@ -43,12 +44,15 @@
 //       error.
 //   release(prepared)                         frees what `prepare` returned
 //   model_distance(prepared, poseA, poseB)    the exact signed distance of what `models` names
+//   roundings(prepared)                       the radii [A's, B's] of the balls by which the engine
+//       rounds edges and corners: of cylinder and box within their sizes, of a convex body around it.
+//       With it, shapes may have a `rounding`, too; without it, the candidate is not asked of those.
 import fs from 'node:fs';
 import os from 'node:os';
 
 const MAX_POINTS = 16;
 const HEADER = 24;
-const SIZES = { prepare: 104, question: 144, answer: 944, handle: 4, vertex: 24 };
+const SIZES = { prepare: 104, question: 144, answer: 944, handle: 4, vertex: 24, roundings: 16 };
 const PREPARE = 1, QUERY = 2, TIME = 3, RELEASE = 4;
 const STATUSES = { contact: 0, none: 1, unsupported: 2, failed: 3 };
 
@@ -82,10 +86,10 @@ export function run(candidate) {
   }
   if (os.endianness() !== 'LE') throw new Error('this machine is not little-endian');
   const { name, version, settings, pairs, precision = 'double', runs = 'script', format = 'frames',
-    parameter, models } = candidate;
+    parameter, models, roundings } = candidate;
   if (format !== 'frames' && format !== 'lines') throw new Error(`no such format: ${format}`);
   writeLine({ touchstone: 1, name, version, settings, precision, runs, format, pairs, parameter,
-    models });
+    models, roundings: roundings ? true : undefined });
   const engine = new Engine(candidate);
   if (format === 'frames') answerFrames(engine);
   else answerLines(engine);
@@ -111,6 +115,12 @@ class Engine {
     }
     this.prepared.set(handle, made);
     return made.value !== null;
+  }
+
+  // Of what could not be prepared, zeros.
+  roundings(handle) {
+    const { value } = this.prepared.get(handle);
+    return value == null ? [0, 0] : this.candidate.roundings(value);
   }
 
   // The encoded answer; what cannot be encoded is a failure as well.
@@ -189,12 +199,22 @@ function answerFrames(engine) {
     const each = (size, encode) => Array.from({ length: count }, (_, i) => encode(i * size));
     let answer;  // with the header's place before it
     if (operation === PREPARE) {
-      answer = new DataView(new ArrayBuffer(HEADER + 4 * count));
+      const saysRoundings = engine.candidate.roundings !== undefined;
+      const ofRoundings = saysRoundings ? SIZES.roundings : 0;
+      answer = new DataView(new ArrayBuffer(HEADER + (4 + ofRoundings) * count));
       const vertices = verticesFrom(entries, SIZES.prepare * count);
-      each(SIZES.prepare, (at) => engine.prepare(entries.getUint32(at, true),
-        shapeAt(entries, at + 24, vertices), shapeAt(entries, at + 64, vertices),
-        entries.getFloat64(at + 8, true), entries.getFloat64(at + 16, true)))
-        .forEach((supported, i) => answer.setUint32(HEADER + 4 * i, supported ? 1 : 0, true));
+      const given = (i) => numbersAt(entries, entries.byteLength - ofRoundings * (count - i), 2);
+      each(SIZES.prepare, (at) => {
+        const i = at / SIZES.prepare, handle = entries.getUint32(at, true);
+        const shapes = [shapeAt(entries, at + 24, vertices), shapeAt(entries, at + 64, vertices)];
+        if (saysRoundings) given(i).forEach((x, k) => { if (x > 0) shapes[k].rounding = x; });
+        const supported = engine.prepare(handle, ...shapes, entries.getFloat64(at + 8, true),
+          entries.getFloat64(at + 16, true));
+        answer.setUint32(HEADER + 4 * i, supported ? 1 : 0, true);
+        if (!saysRoundings) return;
+        engine.roundings(handle).forEach((x, k) =>
+          answer.setFloat64(HEADER + 4 * count + SIZES.roundings * i + 8 * k, x, true));
+      });
     } else if (operation === RELEASE) {
       answer = new DataView(new ArrayBuffer(HEADER));
       each(SIZES.handle, (at) => engine.release(entries.getUint32(at, true)));
@@ -287,8 +307,11 @@ function answerLines(engine) {
     const { op, ticket, passes, entries } =
       JSON.parse(line, (key, value) => NOT_FINITE.get(value) ?? value);
     if (op === 'prepare') {
-      writeLine({ ticket, supported: entries.map(({ handle, a, b, threshold, parameter }) =>
-        engine.prepare(handle, a, b, threshold, parameter)) });
+      const supported = entries.map(({ handle, a, b, threshold, parameter }) =>
+        engine.prepare(handle, a, b, threshold, parameter));
+      const roundings = engine.candidate.roundings &&
+        entries.map(({ handle }) => engine.roundings(handle));
+      writeLine({ ticket, supported, roundings });
     } else if (op === 'query') {
       const answers = entries.map((entry) => engine.query(questionOf(entry), describe));
       writeLine({ ticket, answers });

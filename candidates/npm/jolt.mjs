@@ -15,7 +15,9 @@
 //              bodies, where Jolt makes it as small as it must be. It is taken from the inside:
 //              faces stay where they are, edges are rounded.
 //              jolt-margin-0: convex radius 0. jolt-margin:M: M metres, at most the smallest half
-//              extent.
+//              extent. A cylinder's or box's given rounding is its convex radius. Where even the
+//              bodies without it overlap, Jolt asks its EPA of the sharp ones. What it makes of a
+//              convex body's edges is not known.
 // Conventions  mPenetrationAxis, and a manifold's normal, moves shape 2 out; which body is the
 //              manifold's first is checked.
 // Points       Midway between those on both bodies.
@@ -101,9 +103,12 @@ function makeHull(vertices, convexRadius) {
 
 /** The shapes of a pair, given to `take`, which keeps them; null if one of them cannot be made. */
 function withShapes(a, b, convexRadiusOf, take) {
-  const [shapeA, shapeB] = [a, b].map((shape) => makeShape(shape, convexRadiusOf(shape)));
+  if (b.shape === 'convex' && b.rounding) return null;  // it would be around the hull
+  const radii = [a, b].map((shape) => shape.rounding ?? convexRadiusOf(shape));
+  const [shapeA, shapeB] = [a, b].map((shape, i) => makeShape(shape, radii[i]));
   if (!shapeB) return null;
-  const taken = take(shapeA, shapeB);
+  const taken = { ...take(shapeA, shapeB), roundings: [a, b].map(({ shape }, i) =>
+    shape === 'cylinder' || shape === 'box' ? radii[i] : shape === 'convex' && radii[i] ? NaN : 0) };
   if (b.shape === 'convex') shapeB.Release();
   return taken;
 }
@@ -248,5 +253,6 @@ run({
   runs: 'wasm',
   pairs: ALL_PAIRS,
   parameter: margin.parameter,
+  roundings: ({ roundings }) => roundings,
   ...margin.name === 'jolt-world' ? byWorld : byQuery,
 });
