@@ -27,7 +27,10 @@
 //              queries.
 // Cured        With TOUCHSTONE_CURED, Touchstone's contacts are installed in the dispatcher
 //              (reference/engines/bullet.hpp), and the candidate is bullet+touchstone.
+// Casts        btCollisionWorld::objectQuerySingle, as convexSweepTest asks of each body in
+//              the way, with no allowed penetration.
 // Precision    In single precision the poses are rounded to float, as an engine holds them.
+#include <BulletCollision/CollisionDispatch/btCollisionWorld.h>
 #include <BulletCollision/CollisionShapes/btBoxShape.h>
 #include <BulletCollision/CollisionShapes/btCapsuleShape.h>
 #include <BulletCollision/CollisionShapes/btConvexHullShape.h>
@@ -40,6 +43,7 @@
 
 #include "candidates/adapter.hpp"
 #include "candidates/bullet_pair.hpp"
+#include "candidates/cast.h"
 #include "candidates/model.hpp"
 
 namespace {
@@ -190,3 +194,28 @@ const ts_plugin plugin = {
 }  // namespace
 
 const ts_plugin* touchstone_plugin() { return &plugin; }
+
+#ifndef TOUCHSTONE_CURED
+
+void touchstone_cast(int candidate, const ts_shape* a, const ts_shape* b, const ts_pose* pose_a,
+                     const ts_pose* pose_b, const double sweep[3], ts_cast* answer) {
+  answer->status = TS_CAST_UNSUPPORTED;
+  if (candidate > 1) return;  // the others differ in contacts alone
+  const Setting setting = candidate == 1 ? sharp : usual;
+  const auto shape_a = make_shape(*a, setting), shape_b = make_shape(*b, setting);
+  btCollisionObject object;
+  object.setCollisionShape(shape_b.get());
+  object.setWorldTransform(to_transform(*pose_b));
+  const btTransform from = to_transform(*pose_a);
+  const btTransform to(
+      from.getRotation(),
+      from.getOrigin() + btVector3(to_scalar(sweep[0]), to_scalar(sweep[1]), to_scalar(sweep[2])));
+  btCollisionWorld::ClosestConvexResultCallback hit(from.getOrigin(), to.getOrigin());
+  btCollisionWorld::objectQuerySingle(static_cast<const btConvexShape*>(shape_a.get()), from, to,
+                                      &object, shape_b.get(), object.getWorldTransform(), hit, 0);
+  answer->status = hit.hasHit() ? TS_CAST_TOUCH : TS_CAST_NEVER;
+  answer->fraction = double{hit.m_closestHitFraction};
+  if (hit.hasHit()) touchstone::adapter::copy(hit.m_hitNormalWorld, answer->normal);
+}
+
+#endif
