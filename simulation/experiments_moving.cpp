@@ -213,6 +213,61 @@ double wheel_resolution(double step) {
   return squares / (2 * speeds.back() * speeds.back());
 }
 
+// A cylinder rolls without slip over a level box, straight and at constant speed, whatever the
+// triangles that an engine's own world makes of the box: they lie in one plane. A contact with
+// another normal at a seam, or one that is missed, lifts it, turns it or takes of its speed.
+constexpr double seams_speed = 1, seams_time = 2;  // m/s, s
+constexpr int seams_squares = 12;
+const Cylinder seams_wheel(0.3, 0.06);
+
+/// `heading`: of the way, from the seams' direction.
+Measurement over_seams(const Simulator& simulator, double step, const Cylinder& rolling,
+                       double heading) {
+  Scene scene = scene_for(step, seams_time);
+  const Vec3 half(1.5, 1.5, 0.25);
+  const Eigen::Quaterniond turn = about(Vec3::UnitZ(), heading);
+  const Vec3 along = turn * Vec3::UnitX();
+  const Vec3 start = (half.z() + rolling.radius() - touching) * Vec3::UnitZ() -
+                     seams_speed * seams_time / 2 * along;
+  Body body = moving_body("cylinder", rolling, 0.9,
+                          Pose(start, turn * about(Vec3::UnitX(), -std::numbers::pi / 2)));
+  body.velocity = seams_speed * along;
+  body.angular_velocity = seams_speed / rolling.radius() * (turn * Vec3::UnitY());
+  scene.bodies = {fixed_body("floor", Box(half), 0.9), body};
+  scene.bodies[0].squares = seams_squares;
+  Run run(scene, simulator, rolling.radius());
+  double farthest = 0, highest = 0;
+  Vec3 way = Vec3::Zero();
+  while (run.step()) {
+    way = run.states()[1].pose.position() - start;
+    farthest = std::max(farthest, (way - run.time() * seams_speed * along).norm());
+    highest = std::max(highest, way.z());
+  }
+  const double expected = seams_speed * seams_time;
+  return {along.dot(way), farthest / expected, run.tally(), {{"lift", highest}}};
+}
+
+/// It sinks; a shorter lever changes its speed by two thirds of that share; and it may lean by as
+/// much over its length, and then rolls about where its axis meets the ground, r / lean away.
+double seams_resolution(const Cylinder& rolling) {
+  const double sunk = touching + sinking(seams_time), way = seams_speed * seams_time;
+  const double lean = sunk / (2 * rolling.half_length());
+  return sunk / way + (2.0 / 3 * sunk + lean * way / 2) / rolling.radius();
+}
+
+Experiment seams_experiment(const char* name, const char* statement, const Cylinder& rolling,
+                            double heading) {
+  return {name,
+          statement,
+          "distance, m",
+          "of the path, relative",
+          [rolling, heading](const Simulator& simulator, double step) {
+            return over_seams(simulator, step, rolling, heading);
+          },
+          [](double) { return seams_speed * seams_time; },
+          [rolling](double) { return seams_resolution(rolling); }};
+}
+
 }  // namespace
 
 std::vector<Experiment> moving_experiments() {
@@ -233,7 +288,13 @@ std::vector<Experiment> moving_in_engines() {
        "A wheel that rolls up three low steps loses 2 s/(3 r) of its speed at each edge, and the "
        "energy of its climb.",
        "speed at the end, m/s", "relative", wheel, [](double) { return wheel_speeds().back(); },
-       wheel_resolution}};
+       wheel_resolution},
+      seams_experiment("log-over-seams",
+                       "A log rolls over a level box of triangles, straight, at constant speed.",
+                       can, 0),
+      seams_experiment("wheel-over-seams",
+                       "A wheel rolls likewise, askew to the seams of the triangles.", seams_wheel,
+                       0.3)};
 }
 
 }  // namespace touchstone

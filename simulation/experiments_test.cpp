@@ -46,7 +46,8 @@ std::vector<std::string> names() {
   for (const Experiment& e : all_experiments()) result.push_back(e.name);
   // Of those for engines, the others ask more of the solver than QuickStep gives: engines_test.cpp
   // holds them with solvers at their best.
-  for (const char* name : {"log", "small-log", "disc-on-log", "sliding", "wheel"}) {
+  for (const char* name : {"log", "small-log", "disc-on-log", "sliding", "wheel", "log-over-seams",
+                           "wheel-over-seams"}) {
     result.emplace_back(name);
   }
   return result;

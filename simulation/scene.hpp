@@ -56,6 +56,9 @@ struct Body {
   /// Instead of that of the shape at its density. All of it may be zero where a fixed joint makes
   /// the body one with others that have mass.
   std::optional<PosedInertia> inertia = {};
+  /// Of a fixed box: where an engine's own world finds the contacts, each face consists of so many
+  /// squares of two triangles along a side (candidates/floor.hpp). 0: it is a box there, too.
+  int squares = 0;
 
   /// Do forces move it?
   bool is_free() const { return !fixed && !drive; }

@@ -6,7 +6,7 @@
 //           PyBullet has it: a body that sleeps shows no drift. At its best: 200 iterations, and
 //           friction along two directions instead of the slip's alone.
 // Shapes    btCylinderShapeZ, btBoxShape, btCapsuleShapeZ, btSphereShape with Bullet's default
-//           margins; btStaticPlaneShape.
+//           margins; btStaticPlaneShape; a floor of triangles is a btBvhTriangleMeshShape.
 //           A hull, and a convex body, is a btConvexHullShape with margin 0: its margin, 0.04
 //           whatever its size, would be added outside it; that of a cylinder lies inside it and
 //           rounds its edges. Spheres,
@@ -32,6 +32,7 @@
 #include <numbers>
 #include <vector>
 
+#include "candidates/bullet_mesh.hpp"
 #include "reference/engines/bullet.hpp"
 #include "simulation/engines/engine_world.hpp"
 
@@ -87,6 +88,7 @@ Made make_hull(const std::vector<Vec3>& corners) {
 }
 
 Made make_piece(const Piece& piece) {
+  if (piece.squares > 0) return std::make_unique<BulletFloor>(piece.floor());
   return piece.corners.empty() ? std::visit(MakeShape{}, piece.shape) : make_hull(piece.corners);
 }
 

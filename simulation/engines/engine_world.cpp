@@ -25,7 +25,7 @@ std::vector<Piece> pieces(const Body& body, const EngineShape& engine_shape) {
     return {{body.shape, Vec3::Zero(), hull->vertices()}};
   }
   const auto* c = std::get_if<Cylinder>(&body.shape);
-  if (!c) return {{body.shape}};
+  if (!c) return {{body.shape, Vec3::Zero(), {}, body.squares}};
   const auto [kind, count] = engine_shape;
   using Kind = EngineShape::Kind;
   std::vector<RoundedPolytope> parts;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "candidates/candidate.h"
-#include "candidates/model.hpp"
+#include "candidates/floor.hpp"
 #include "simulation/assembly.hpp"
 #include "simulation/engines/run_engines.hpp"
 #include "simulation/scene.hpp"
@@ -20,9 +20,13 @@ struct Piece {
   Shape shape;
   Vec3 centre = Vec3::Zero();      ///< in the body's frame
   std::vector<Vec3> corners = {};  ///< of a hull, be the shape convex or what the hull replaces
+  int squares = 0;                 ///< of a box: of its floor of triangles (Body)
+
+  /// The floor of triangles that stands for the box.
+  Floor floor() const { return {std::get<Box>(shape).half_extents(), squares}; }
 };
 
-/// What stands for a body: its own shape, or what replaces a cylinder.
+/// What stands for a body: its own shape, or what replaces a cylinder or a box.
 std::vector<Piece> pieces(const Body& body, const EngineShape& engine_shape);
 
 /// Pose of what is at a point, and not turned, in a frame with a pose.
@@ -67,7 +71,7 @@ class EngineWorld : public Simulation {
   bool is_no_margin(std::size_t body) const {
     return setup_.shape_of(body).kind == EngineShape::Kind::no_margin;
   }
-  bool is_cured() const { return setup_.cured || setup_.has(EngineShape::Kind::exact); }
+  bool is_cured() const { return setup_.is_cured(); }
   bool is_multipoint() const { return setup_.has(EngineShape::Kind::multipoint); }
 
   /// Reads the state of an assembly from the engine; `orientation` is w, x, y, z.

@@ -125,19 +125,22 @@ TEST_P(KnownFaults, AreMended) {
   EXPECT_LT(mended.value, 1e-20) << "to the last digit";
 }
 
-INSTANTIATE_TEST_SUITE_P(, KnownFaults,
-                         testing::Values(KnownFault{"bullet", "small-log", 1000, Cure::held},
-                                         KnownFault{"bullet", "rolling", 0.01, Cure::held},
-                                         KnownFault{"mujoco", "stack-of-five", 1, Cure::held},
-                                         KnownFault{"ode", "stack-of-ten", 0.1, Cure::solver},
-                                         KnownFault{"ode", "settling", 0.01, Cure::held},
-                                         KnownFault{"ode", "stack", 0.005, Cure::solver}),
-                         [](const auto& fault) {
-                           std::string plain =
-                               fault.param.engine + (std::string("_") + fault.param.experiment);
-                           std::ranges::replace(plain, '-', '_');
-                           return plain;
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    , KnownFaults,
+    testing::Values(KnownFault{"bullet", "small-log", 1000, Cure::held},
+                    KnownFault{"bullet", "rolling", 0.01, Cure::held},
+                    KnownFault{"mujoco", "stack-of-five", 1, Cure::held},
+                    KnownFault{"ode", "stack-of-ten", 0.1, Cure::solver},
+                    KnownFault{"ode", "settling", 0.01, Cure::held},
+                    KnownFault{"ode", "stack", 0.005, Cure::solver},
+                    // On triangles, where ours know the box.
+                    KnownFault{"bullet", "wheel-over-seams", 1e-3, Cure::nearer},
+                    KnownFault{"mujoco", "log-over-seams", 5e-3, Cure::nearer}),
+    [](const auto& fault) {
+      std::string plain = fault.param.engine + (std::string("_") + fault.param.experiment);
+      std::ranges::replace(plain, '-', '_');
+      return plain;
+    });
 
 TEST(InsideAnEngine, ACrashIsAResult) {
   if (!is_there("ode")) GTEST_SKIP();

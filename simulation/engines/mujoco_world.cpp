@@ -7,8 +7,9 @@
 //           At its best: as hard as the step allows (solref two steps, solimp 0.99 0.999),
 //           elliptic cones, impratio 10.
 // Shapes    cylinder, box, capsule, sphere with half lengths; a plane is infinite. A hull is a mesh
-//           asset, and so is a convex body that is not flat. Spheres, and bodies that fixed joints
-//           connect, are several geoms of one body.
+//           asset, and so is a convex body that is not flat; a floor of triangles is an hfield
+//           without heights. Spheres, and bodies that fixed joints connect, are several geoms of
+//           one body.
 // Masses    Inertia of the exact bodies. MuJoCo takes the larger friction of two bodies.
 // Joints    The tree of MuJoCo's users (SceneXml): hinge and slide, with limits as soft as
 //           contacts. What may touch is decided in mjcb_contactfilter.
@@ -21,12 +22,11 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
-#include <cstring>
 #include <fmt/format.h>
 #include <mujoco/mujoco.h>
-#include <stdexcept>
 #include <string>
 
+#include "candidates/mujoco_library.hpp"
 #include "reference/engines/mujoco.hpp"
 #include "simulation/engines/engine_world.hpp"
 #include "simulation/kinematic_tree.hpp"
@@ -187,7 +187,14 @@ class SceneXml {
   std::string geom_xml(int body, const Piece& piece, const Pose& X_FB) {
     ++geoms_;
     std::string shape;
-    if (piece.corners.empty()) {
+    if (piece.squares > 0) {
+      // Solid below its frame's xy-plane, down to its base.
+      const Vec3 half = std::get<Box>(piece.shape).half_extents();
+      shape = fmt::format("type='hfield' hfield='h{}'", body) +
+              pose_xml(shifted(X_FB, half.z() * Vec3::UnitZ()));
+      meshes_ += fmt::format("<hfield name='h{0}' nrow='{1}' ncol='{1}' size='{2} {3} 1 {4}'/>",
+                             body, piece.squares + 1, half.x(), half.y(), 2 * half.z());
+    } else if (piece.corners.empty()) {
       shape = std::visit(GeomXml{X_FB}, piece.shape);
     } else {
       shape = fmt::format("type='mesh' mesh='m{}'", body) + pose_xml(X_FB);
@@ -208,24 +215,12 @@ class SceneXml {
   std::string meshes_, motors_;
 };
 
-mjModel* load_xml(const std::string& xml) {
-  const auto files = std::make_unique<mjVFS>();
-  mj_defaultVFS(files.get());
-  mj_makeEmptyFileVFS(files.get(), "scene.xml", static_cast<int>(xml.size()));
-  std::memcpy(files->filedata[0], xml.data(), xml.size());
-  char error[512] = "";
-  mjModel* const model = mj_loadXML("scene.xml", files.get(), error, sizeof error);
-  mj_deleteVFS(files.get());
-  if (!model) throw std::runtime_error(error);
-  return model;
-}
-
 class MujocoWorld : public EngineWorld {
  public:
   MujocoWorld(const Scene& scene, const EngineSetup& setup)
       : EngineWorld(scene, setup),
         tree_(kinematic_tree(scene, assemblies_)),
-        model_(load_xml(SceneXml(scene, assemblies_, tree_, setup).xml())),
+        model_(load_mjcf(SceneXml(scene, assemblies_, tree_, setup).xml())),
         data_(mj_makeData(model_)),
         integrals_(scene.joints.size()) {
     mjcb_contactfilter = keeps_apart;

@@ -9,8 +9,8 @@
 //           directions are ODE's own. Two bodies have the geometric mean of their friction.
 // Shapes    dCreateCylinder and so on (ode_scene.hpp); a plane has no pose and is made in world
 //           coordinates; a convex body is a mesh of triangles, which misses some of a cylinder's
-//           contacts. Spheres are several geoms of one body, as are bodies that fixed joints
-//           connect.
+//           contacts, and so is a floor of triangles. Spheres are several geoms of one body, as are
+//           bodies that fixed joints connect.
 // Joints    Hinges and sliders with stops and motors (dParamVel, dParamFMax), as in our own world,
 //           which counts a hinge's turns.
 // Belts     The velocity of a contact's surfaces (dContactMotion1) along its first direction.
@@ -20,6 +20,7 @@
 #include <optional>
 
 #include "candidates/ode_library.hpp"
+#include "candidates/ode_mesh.hpp"
 #include "reference/engines/ode.hpp"
 #include "simulation/engines/engine_world.hpp"
 #include "simulation/ode_scene.hpp"
@@ -98,11 +99,21 @@ class OdeWorld : public EngineWorld {
       const Body& body = scene_.bodies[assembly.bodies[i]];
       const Pose& at = made ? assembly.X_FB[i] : body.pose;
       for (const Piece& piece : pieces(assembly.bodies[i])) {
-        const dGeomID geom =
-            make_ode_geom(space_, piece.shape, made, shifted(at, piece.centre), meshes_);
+        const dGeomID geom = piece.squares > 0 ? make_floor(piece, at)
+                                               : make_ode_geom(space_, piece.shape, made,
+                                                               shifted(at, piece.centre), meshes_);
         dGeomSetData(geom, const_cast<Body*>(&body));
       }
     }
+  }
+
+  dGeomID make_floor(const Piece& piece, const Pose& pose) {
+    floors_.push_back(ode_floor(piece.floor()));
+    const dGeomID made = floors_.back()->make_geom(space_);
+    const Vec3& p = pose.position();
+    dGeomSetPosition(made, p.x(), p.y(), p.z());
+    dGeomSetQuaternion(made, OdeQuaternion(pose).wxyz);
+    return made;
   }
 
   int index_of(dGeomID geom) const {
@@ -132,6 +143,7 @@ class OdeWorld : public EngineWorld {
 
   bool is_direct_;
   dWorldID world_;
+  std::vector<std::unique_ptr<OdeMesh>> floors_;
   dSpaceID space_;
   dJointGroupID contacts_;
   OdeMeshes meshes_;

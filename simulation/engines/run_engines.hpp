@@ -57,6 +57,8 @@ struct EngineSetup {
     return std::any_of(shapes.begin(), shapes.end(),
                        [&](const EngineShape& s) { return s.kind == kind; });
   }
+  /// Do our routines find the contacts of cylinders, of some at least?
+  bool is_cured() const { return cured || has(EngineShape::Kind::exact); }
 };
 
 struct EngineDescription {
