@@ -76,8 +76,8 @@ std::vector<const Candidate*> all_candidates();
 std::vector<const Candidate*> default_candidates();
 
 /// Those built here that are candidates once they are named, and in no list before or after: our
-/// routines in single precision, "reference-float", and engines that answer with Touchstone's
-/// contacts of cylinders (reference/engines), "ode+touchstone".
+/// routines in single precision, "reference-float", engines that answer with Touchstone's contacts
+/// of cylinders (reference/engines), "ode+touchstone", and floors of triangles, "ode-floor".
 std::vector<std::string> named_candidates();
 
 /// Likewise the candidates built here of engines that Debian does not have: "coal", "jolt-native".

@@ -49,7 +49,9 @@ void list_candidates() {
   for (const Candidate* c : all_candidates()) {
     if (std::ranges::find(usual, c) == usual.end()) print_candidate(*c);
   }
-  print_heading("In single precision, or with Touchstone's contacts installed, when one is named:");
+  print_heading(
+      "In single precision, with Touchstone's contacts installed or with floors of triangles, when "
+      "one is named:");
   for (const std::string& name : named_candidates()) print_below(name);
   const std::vector<std::string> peers = peer_engines();
   if (!peers.empty()) print_heading("Of engines outside Debian, when one is named:");
