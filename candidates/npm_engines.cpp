@@ -33,11 +33,16 @@ const std::vector<NpmEngine>& npm_engines() {
       {"jolt-margin-0", "jolt-physics", "jolt.mjs margin-0"},
       {"jolt-margin", "jolt-physics", "jolt.mjs margin"},
       {"jolt-world", "jolt-physics", "jolt.mjs world"},
+      {"jolt-floor", "jolt-physics", "jolt.mjs floor"},
       {"rapier", "@dimforge/rapier3d-compat", "rapier.mjs"},
       {"rapier-world", "@dimforge/rapier3d-compat", "rapier.mjs world"},
+      {"rapier-floor", "@dimforge/rapier3d-compat", "rapier.mjs floor"},
+      {"rapier-floor-edges", "@dimforge/rapier3d-compat", "rapier.mjs floor-edges"},
       {"physx", "physx-js-webidl", "physx.mjs"},
       {"physx-world", "physx-js-webidl", "physx.mjs world"},
+      {"physx-floor", "physx-js-webidl", "physx.mjs floor"},
       {"havok", "@babylonjs/havok", "havok.mjs"},
+      {"havok-floor", "@babylonjs/havok", "havok.mjs floor"},
       {"mujoco3", "@mujoco/mujoco", "mujoco3.mjs"},
       {"mujoco3-single", "@mujoco/mujoco", "mujoco3.mjs single"}};
   return engines;

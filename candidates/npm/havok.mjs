@@ -8,7 +8,8 @@
 //              CreateBox (whole extents). There is no plane. Havok's cylinder is a prism of 16
 //              sides with its corners on the rims: 1.9% of the radius are missing between two
 //              corners. HP_Shape_CreateConvexHull of a convex body's vertices; one in one plane
-//              comes out 10 to 15 mm thicker on both sides.
+//              comes out 10 to 15 mm thicker on both sides. havok-floor:N: HP_Shape_CreateMesh of
+//              the plane's or box's triangles (floor.mjs).
 // Margin       As Havok makes them; there is no call to set one. Edges are rounded by about 0.015
 //              m.
 // Conventions  The contact on the queried shape comes in that shape's frame, the one on B in the
@@ -16,9 +17,12 @@
 // Points       One, midway between those on both bodies.
 // Threshold    The query's maximum distance.
 // Precision    Poses are rounded to float.
+//
+// node havok.mjs [floor]
 import { run } from '../clients/touchstone_candidate.mjs';
 import fs from 'node:fs';
 import path from 'node:path';
+import { FLOOR, makeFloor } from './floor.mjs';
 import { folderOf, load, middle, rotate, versionOf } from './packages.mjs';
 
 const { default: start } = await load('@babylonjs/havok');
@@ -41,6 +45,7 @@ function makeShape(shape) {
     case 'box': return checked(
       havok.HP_Shape_CreateBox(origin, [0, 0, 0, 1], shape.half_extents.map((x) => 2 * x)));
     case 'convex': return makeHull(shape.vertices);
+    case 'floor': return makeMesh(shape);
     default: return null;
   }
 }
@@ -53,30 +58,46 @@ function makeHull(vertices) {
   return checked(made);
 }
 
+function makeMesh({ corners, triangles }) {
+  const numbers = corners.flat(), indices = triangles.flat();
+  const address = havok._malloc(4 * (numbers.length + indices.length));
+  havok.HEAPF32.set(numbers, address / 4);
+  havok.HEAP32.set(indices, address / 4 + numbers.length);
+  const made = havok.HP_Shape_CreateMesh(
+    address, corners.length, address + 4 * numbers.length, triangles.length);
+  havok._free(address);
+  return checked(made);
+}
+
+const hasFloor = process.argv[2] === 'floor';
 const world = checked(havok.HP_World_Create());
 const collector = checked(havok.HP_QueryCollector_Create(1));
 const toXyzw = ([w, x, y, z]) => [x, y, z, w];
 
 run({
-  name: 'havok',
+  name: hasFloor ? 'havok-floor' : 'havok',
   version: versionOf('@babylonjs/havok'),
-  settings: 'ShapeProximity query of a world with one body, single precision, margins as made (a ' +
+  settings: (hasFloor ? 'plane or box as a mesh of N by N squares of two triangles; ' : '') +
+    'ShapeProximity query of a world with one body, single precision, margins as made (a ' +
     'cylinder is a rounded prism of 16 sides); one point, midway between those on both bodies',
   precision: 'float',
   runs: 'wasm',
   pairs: ['sphere', 'capsule', 'cylinder', 'box', 'convex'].map((b) => `cylinder-${b}`),
+  ...hasFloor ? FLOOR : {},
 
-  prepare(a, b, threshold) {
-    if (b.shape === 'plane') return null;
-    const [shapeA, shapeB] = [a, b].map(makeShape);
+  prepare(a, b, threshold, count) {
+    const floor = hasFloor ? makeFloor(a, b, count) : null;
+    if (hasFloor ? !floor : b.shape === 'plane') return null;
+    const [shapeA, shapeB] = [a, floor ?? b].map(makeShape);
     const body = checked(havok.HP_Body_Create());
     havok.HP_Body_SetShape(body, shapeB);
     havok.HP_Body_SetMotionType(body, havok.MotionType.STATIC);
-    return { shapeA, shapeB, body, threshold };
+    return { shapeA, shapeB, body, floor, threshold };
   },
 
-  query({ shapeA, body, threshold }, poseA, poseB) {
-    havok.HP_Body_SetQTransform(body, [poseB.position, toXyzw(poseB.orientation)]);
+  query({ shapeA, body, floor, threshold }, poseA, poseB) {
+    const { position, orientation } = floor ? floor.at(poseA, poseB) : poseB;
+    havok.HP_Body_SetQTransform(body, [position, toXyzw(orientation)]);
     havok.HP_World_AddBody(world, body, false);
     try {
       havok.HP_World_ShapeProximityWithCollector(world, collector,

@@ -10,6 +10,8 @@
 // Shapes       CylinderShape and CapsuleShape along y, turned to ours; SphereShape, BoxShape,
 //              PlaneShape; ConvexHullShape of a convex body's vertices, with Jolt's tolerance of
 //              1 mm, by which it may leave out some, and none of smaller bodies than that.
+//              jolt-floor:N: MeshShape of the plane's or box's triangles (floor.mjs); the deepest
+//              hit of any. Only edges at which a mesh is not flat are active, as by default.
 // Margin       jolt, jolt-world: Jolt's convex radius of 0.05 m on cylinder and box, at most half
 //              of the smallest half extent (Jolt refuses more than the whole one), and on convex
 //              bodies, where Jolt makes it as small as it must be. It is taken from the inside:
@@ -27,8 +29,9 @@
 // Traps        Until a JoltInterface exists, every pair's function is null, and a query ends the
 //              program.
 //
-// node jolt.mjs [margin-0 | margin | world]
+// node jolt.mjs [margin-0 | margin | world | floor]
 import { run } from '../clients/touchstone_candidate.mjs';
+import { FLOOR, makeFloor } from './floor.mjs';
 import { ALL_PAIRS, Y_TO_Z, load, middle, multiply, smallest, versionOf } from './packages.mjs';
 
 const Jolt = await (await load('jolt-physics')).default();
@@ -55,12 +58,13 @@ const usual = { says: 'convex radius 0.05 m, at most half of the smallest half e
 const MARGINS = {
   undefined: { name: 'jolt', ...usual },
   world: { name: 'jolt-world', ...usual },
+  floor: { name: 'jolt-floor', ...usual, parameter: FLOOR.parameter },
   'margin-0': { name: 'jolt-margin-0', says: 'convex radius 0', of: () => 0 },
   margin: { name: 'jolt-margin', says: 'convex radius as given, at most the smallest half extent',
     of: (shape, margin) => Math.min(margin, smallest(shape)),
     parameter: { meaning: 'convex radius, metres', min: 0, max: 1, usual: 0.01 } },
 };
-const margin = MARGINS[process.argv[2]];
+const margin = MARGINS[process.argv[2]], hasFloor = process.argv[2] === 'floor';
 
 function makeShape(shape, convexRadius) {
   switch (shape.shape) {
@@ -74,6 +78,7 @@ function makeShape(shape, convexRadius) {
       return made;
     }
     case 'convex': return makeHull(shape.vertices, convexRadius);
+    case 'floor': return makeMesh(shape);
     default: {
       const normal = new Jolt.Vec3(...shape.normal);
       const plane = new Jolt.Plane(normal, -shape.displacement);
@@ -93,10 +98,27 @@ function makeHull(vertices, convexRadius) {
     settings.mPoints.push_back(point);
   }
   settings.mMaxConvexRadius = convexRadius;
+  Jolt.destroy(point);
+  return created(settings);
+}
+
+function makeMesh({ corners, triangles }) {
+  const list = new Jolt.TriangleList();
+  for (const triangle of triangles) {
+    const ends = triangle.map((i) => new Jolt.Vec3(...corners[i]));
+    const one = new Jolt.Triangle(...ends, 0);
+    list.push_back(one);
+    for (const made of [one, ...ends]) Jolt.destroy(made);
+  }
+  const settings = new Jolt.MeshShapeSettings(list);
+  Jolt.destroy(list);
+  return created(settings);
+}
+
+function created(settings) {
   const made = settings.Create();
   const shape = made.IsValid() ? made.Get() : null;
   shape?.AddRef();
-  Jolt.destroy(point);
   Jolt.destroy(settings);
   return shape;
 }
@@ -109,7 +131,7 @@ function withShapes(a, b, convexRadiusOf, take) {
   if (!shapeB) return null;
   const taken = { ...take(shapeA, shapeB), roundings: [a, b].map(({ shape }, i) =>
     shape === 'cylinder' || shape === 'box' ? radii[i] : shape === 'convex' && radii[i] ? NaN : 0) };
-  if (b.shape === 'convex') shapeB.Release();
+  if (b.shape === 'convex' || b.shape === 'floor') shapeB.Release();
   return taken;
 }
 
@@ -142,18 +164,20 @@ const byQuery = {
     'one point, midway between those on both bodies',
 
   prepare(a, b, threshold, parameter) {
-    return withShapes(a, b, (shape) => margin.of(shape, parameter), (shapeA, shapeB) => {
+    const floor = hasFloor ? makeFloor(a, b, parameter) : null;
+    if (hasFloor && !floor) return null;
+    return withShapes(a, floor ?? b, (shape) => margin.of(shape, parameter), (shapeA, shapeB) => {
       shapeA.AddRef();
       const body = new Jolt.TransformedShape();
       body.mShape = shapeB;
       const query = new Jolt.CollideShapeSettings();
       query.mMaxSeparationDistance = threshold;
-      return { shapeA, body, query, turned: needsTurn(b) };
+      return { shapeA, body, query, floor, turned: needsTurn(b) };
     });
   },
 
-  query({ shapeA, body, query, turned }, poseA, poseB) {
-    place(poseB, turned);
+  query({ shapeA, body, query, floor, turned }, poseA, poseB) {
+    place(floor ? floor.at(poseA, poseB) : poseB, turned);
     body.SetWorldTransform(position, rotation, one);
     place(poseA, true);
     hit = null;
@@ -251,7 +275,7 @@ run({
   version: versionOf('jolt-physics'),
   precision: 'float',
   runs: 'wasm',
-  pairs: ALL_PAIRS,
+  pairs: hasFloor ? FLOOR.pairs : ALL_PAIRS,
   parameter: margin.parameter,
   roundings: ({ roundings }) => roundings,
   ...margin.name === 'jolt-world' ? byWorld : byQuery,

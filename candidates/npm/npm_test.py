@@ -19,6 +19,7 @@ sys.path.append(str(HERE.parent / "clients/testing"))
 from protocol import Child
 
 ALL = ("plane", "sphere", "capsule", "cylinder", "box", "convex")
+FLAT = ("plane", "box")
 
 
 class Engine(NamedTuple):
@@ -34,7 +35,7 @@ class Engine(NamedTuple):
 
 
 # PhysX's GJK stops within 2 mm of the distance; MuJoCo turns the bodies by 1 mrad for its other
-# points.
+# points. Floors of triangles are of 2 by 2 squares: bodies lie on seams.
 ENGINES = {
     "jolt": Engine(["jolt.mjs"], 2e-6, 2e-6, 2e-4),
     "jolt-margin-0": Engine(["jolt.mjs", "margin-0"], 2e-6, 2e-6, 2e-4),
@@ -47,6 +48,12 @@ ENGINES = {
     "havok": Engine(["havok.mjs"], 5e-6, 5e-6, 2e-5, kinds=ALL[1:]),
     "mujoco3": Engine(["mujoco3.mjs"], 1e-6, 1e-6, 2e-3),
     "mujoco3-single": Engine(["mujoco3.mjs", "single"], 1e-6, 1e-6, 1e-5),
+    "jolt-floor": Engine(["jolt.mjs", "floor"], 2e-6, 2e-6, 1e-3, kinds=FLAT, parameter=2),
+    "rapier-floor": Engine(["rapier.mjs", "floor"], 2e-4, 1e-5, 3e-2, kinds=FLAT, parameter=2),
+    "rapier-floor-edges": Engine(["rapier.mjs", "floor-edges"], 2e-4, 1e-5, 5e-3, kinds=FLAT,
+                                 parameter=2),
+    "physx-floor": Engine(["physx.mjs", "floor"], 5e-4, 2e-3, 5e-2, kinds=FLAT, parameter=2),
+    "havok-floor": Engine(["havok.mjs", "floor"], 5e-4, 5e-4, 1e-3, kinds=FLAT, parameter=2),
 }
 
 HALF = math.sqrt(0.5)
@@ -131,6 +138,12 @@ def dot(u, v):
     return sum(x * y for x, y in zip(u, v))
 
 
+def cases_for(engine):
+    """Those of its kinds; of a floor without a rim, for the others are between faces and sides."""
+    return [case for case in CASES if case[1]["shape"] in engine.kinds
+            and not (engine.kinds == FLAT and case[0] == "a corner on a slope")]
+
+
 # Starting an engine takes longer than all that it is asked here: each is started once.
 running = contextlib.ExitStack()
 
@@ -176,14 +189,14 @@ class Npm(unittest.TestCase):
                 self.assertEqual(child.hello["runs"], "wasm")
                 self.assertEqual(child.hello["precision"], "double" if "mujoco" in name else "float")
                 self.assertEqual(child.hello["pairs"], [f"cylinder-{kind}" for kind in engine.kinds])
-                supported = child.prepare([(i, CYLINDER, b, 0, 0.01) for i, b in enumerate(
+                supported = child.prepare([(i, CYLINDER, b, 0, engine.parameter) for i, b in enumerate(
                     (PLANE, SPHERE, CAPSULE, CYLINDER, BOX, ROOF))])
                 self.assertEqual(supported, [kind in engine.kinds for kind in ALL])
                 child.release(list(range(len(ALL))))
 
     def test_contacts_are_as_on_paper(self):
         for name, engine, child in self.engines():
-            cases = [case for case in CASES if case[1]["shape"] in engine.kinds]
+            cases = cases_for(engine)
             for moved in ((UPRIGHT, (0, 0, 0)), MOVED):
                 for case, answer in zip(cases, self.ask(child, cases, 0, moved)):
                     with self.subTest(engine=name, case=case[0], moved=moved is MOVED):
@@ -191,7 +204,7 @@ class Npm(unittest.TestCase):
 
     def test_bodies_apart_are_answered_up_to_the_threshold(self):
         for name, engine, child in self.engines():
-            cases = [case for case in CASES if case[1]["shape"] in engine.kinds]
+            cases = cases_for(engine)
             for case, answer in zip(cases, self.ask(child, cases, 0.02, MOVED, 2 * DEPTH)):
                 with self.subTest(engine=name, case=case[0]):
                     self.assert_contact(answer, case, MOVED, DEPTH, engine)
@@ -202,7 +215,7 @@ class Npm(unittest.TestCase):
 
     def test_answers_depend_on_the_question_alone(self):
         for name, engine, child in self.engines():
-            cases = [case for case in CASES if case[1]["shape"] in engine.kinds]
+            cases = cases_for(engine)
             with self.subTest(engine=name):
                 first = self.ask(child, cases, 0, MOVED)
                 self.ask(child, cases, 0.02, (UPRIGHT, (0.001, 0, 0)))
@@ -230,11 +243,11 @@ class KnownFailures(unittest.TestCase):
     """What docs/engines.md says of these engines. One that no longer fails has been mended: say so
     there."""
 
-    def ask(self, name, b, position, orientation, other=(UPRIGHT, (0, 0, 0))):
+    def ask(self, name, b, position, orientation, other=(UPRIGHT, (0, 0, 0)), parameter=0):
         """The answer to a cylinder there and B upright in the origin, or as `other` says."""
         length = math.hypot(*orientation)
         child = child_of(name)
-        child.prepare([(0, CYLINDER, b, 0, 0)])
+        child.prepare([(0, CYLINDER, b, 0, parameter)])
         (answer,) = child.query([(
             0, {"position": list(position), "orientation": [x / length for x in orientation]},
             {"position": list(other[1]), "orientation": list(other[0])}, None)])
@@ -293,6 +306,21 @@ class KnownFailures(unittest.TestCase):
             at = [0.78 * math.cos(angle), 0.78 * math.sin(angle), 0]
             answer = self.ask("havok", SPHERE, (0, 0, 0), UPRIGHT, (UPRIGHT, at))
             self.assertAlmostEqual(answer.signed_distance, -0.02 + 0.5 * missing, delta=5e-4)
+
+    def test_seams_of_floors_turn_normals(self):
+        """Degrees between a point's normal and the plane's: of a can beside a seam, where an edge is as
+        deep in its side as its cap is in the floor, and of a log that lies along a seam."""
+        ground = {"shape": "plane", "normal": [0, 0, 1], "displacement": 0}
+        half_side = 5 * math.hypot(0.5, 1) / 4  # of a square of 2 by 2
+        for name, can, log in (("jolt-floor", 0, 0), ("rapier-floor", 0, 0.39),
+                               ("rapier-floor-edges", 0, 0), ("physx-floor", 90, 2.09),
+                               ("havok-floor", 0, 0)):
+            for angle, z, orientation in ((can, 0.99, UPRIGHT), (log, 0.49, TO_X)):
+                with self.subTest(engine=name, z=z):
+                    answer = self.ask(name, ground, (half_side, 0, z), orientation, parameter=8)
+                    self.assertAlmostEqual(answer.signed_distance, -0.01, delta=5e-4)
+                    worst = max(math.degrees(math.acos(min(1, point[5]))) for point in answer.points)
+                    self.assertAlmostEqual(worst, angle, delta=0.1)
 
 
 if __name__ == "__main__":

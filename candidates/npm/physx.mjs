@@ -10,6 +10,8 @@
 //              PxPlaneGeometry, solid below x = 0; a PxConvexMesh of a convex body's vertices. Of
 //              more than 255 of them PhysX leaves some out; of those in one plane it makes a box
 //              about them that is 20 mm thick, and smaller bodies than 1 mm it enlarges.
+//              physx-floor:N: PxTriangleMesh of the plane's or box's triangles (floor.mjs), in a
+//              scene.
 // Margin       0 on all; the tolerance length of 1 m is PhysX's default.
 // Conventions  separatingAxis, and the normal of a contact report, points from the second body to
 //              the first.
@@ -20,10 +22,11 @@
 // Precision    Poses are rounded to float.
 // Traps        The package is built for browsers alone, and refuses to load where it sees node.
 //
-// node physx.mjs [world]
+// node physx.mjs [world | floor]
 import { run } from '../clients/touchstone_candidate.mjs';
 import fs from 'node:fs';
 import path from 'node:path';
+import { FLOOR, makeFloor } from './floor.mjs';
 import {
   ALL_PAIRS, folderOf, load, middle, multiply, rotate, smallest, turn, versionOf,
 } from './packages.mjs';
@@ -115,26 +118,50 @@ function makeGeometry(shape) {
     case 'sphere': return new PhysX.PxSphereGeometry(shape.radius);
     case 'box': return new PhysX.PxBoxGeometry(...shape.half_extents);
     case 'convex': return makeHull(shape.vertices);
+    case 'floor': return makeMesh(shape);
     default: return new PhysX.PxPlaneGeometry();
   }
 }
 
 const meshes = new Map();  // by their geometries
 
-/** Null if PhysX makes no mesh of the vertices. */
-function makeHull(vertices) {
+function makePoints(vertices) {
   const points = new PhysX.PxArray_PxVec3(vertices.length), point = new PhysX.PxVec3(0, 0, 0);
   vertices.forEach(([x, y, z], i) => {
     point.x = x; point.y = y; point.z = z;
     points.set(i, point);
   });
+  PhysX.destroy(point);
+  return points;
+}
+
+function makeMesh({ corners, triangles }) {
+  const points = makePoints(corners), indices = new PhysX.PxArray_PxU32(3 * triangles.length);
+  triangles.flat().forEach((corner, i) => indices.set(i, corner));
+  const description = new PhysX.PxTriangleMeshDesc();
+  description.points.count = corners.length;
+  description.points.stride = 12;
+  description.points.data = points.begin();
+  description.triangles.count = triangles.length;
+  description.triangles.stride = 12;
+  description.triangles.data = indices.begin();
+  const mesh = Px.CreateTriangleMesh(cooking, description);
+  for (const made of [points, indices, description]) PhysX.destroy(made);
+  const geometry = new PhysX.PxTriangleMeshGeometry(mesh);
+  meshes.set(geometry, mesh);
+  return geometry;
+}
+
+/** Null if PhysX makes no mesh of the vertices. */
+function makeHull(vertices) {
+  const points = makePoints(vertices);
   const description = new PhysX.PxConvexMeshDesc();
   description.points.count = vertices.length;
   description.points.stride = 12;
   description.points.data = points.begin();
   description.flags = new PhysX.PxConvexFlags(PhysX.PxConvexFlagEnum.eCOMPUTE_CONVEX);
   const mesh = Px.CreateConvexMesh(cooking, description);
-  for (const made of [points, point, description]) PhysX.destroy(made);
+  for (const made of [points, description]) PhysX.destroy(made);
   if (PhysX.getPointer(mesh) === 0) return null;
   const geometry = new PhysX.PxConvexMeshGeometry(mesh);
   meshes.set(geometry, mesh);
@@ -182,7 +209,7 @@ function prepareScene(a, b, geometries, threshold) {
 
 function step({ shapes, actors, b, threshold }, poseA, poseB) {
   place(poseOfA, poseA.position, multiply(poseA.orientation, X_TO_Z));
-  place(poseOfB, ...frameOfB(b, poseB));
+  place(poseOfB, ...frameOfB(b, b.at ? b.at(poseA, poseB) : poseB));
   actors[0].setGlobalPose(poseOfA);
   actors[1].setGlobalPose(poseOfB);
   scene.points = [];
@@ -197,21 +224,24 @@ function step({ shapes, actors, b, threshold }, poseA, poseB) {
   return { signed_distance: -deepest.depth, normal: deepest.normal, points };
 }
 
-const inWorld = process.argv[2] === 'world';
+const hasFloor = process.argv[2] === 'floor', inWorld = hasFloor || process.argv[2] === 'world';
 
 run({
-  name: inWorld ? 'physx-world' : 'physx',
+  name: hasFloor ? 'physx-floor' : inWorld ? 'physx-world' : 'physx',
   version: `5.6.1 (${versionOf('physx-js-webidl')})`,
   settings: inWorld ?
+    (hasFloor ? 'plane or box as PxTriangleMesh of N by N squares of two triangles; ' : '') +
     'contact report of a step of a scene, convex core of margin 0, single precision' :
     'PxGjkQuery::proximityInfo, convex core of margin 0, single precision, one point midway ' +
     'between the bodies; the plane: contact report of a step of a scene',
   precision: 'float',
   runs: 'wasm',
-  pairs: ALL_PAIRS,
+  pairs: hasFloor ? FLOOR.pairs : ALL_PAIRS,
+  parameter: hasFloor ? FLOOR.parameter : undefined,
 
-  prepare(a, b, threshold) {
-    const geometryOfB = makeGeometry(b);
+  prepare(a, asked, threshold, count) {
+    const b = hasFloor ? makeFloor(a, asked, count) : asked;
+    const geometryOfB = b && makeGeometry(b);
     if (!geometryOfB) return null;
     return (inWorld || b.shape === 'plane' ? prepareScene : prepareQuery)(
       a, b, [makeGeometry(a), geometryOfB], threshold);

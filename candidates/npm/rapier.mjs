@@ -8,22 +8,27 @@
 // Shapes       Cylinder and Capsule along y, turned to ours; Ball, Cuboid; HalfSpace, which passes
 //              through the origin of its frame: displaced along its normal; ConvexPolyhedron of a
 //              convex body's vertices, be they in one plane or not, Triangle of three.
+//              rapier-floor:N: TriMesh of the plane's or box's triangles (floor.mjs), in a world;
+//              rapier-floor-edges:N: the same with FIX_INTERNAL_EDGES.
 // Margin       None; Rapier's round shapes (RoundCylinder) are others.
 // Conventions  The normal is normal1 of B if B is the plane, which has to come first, otherwise
 //              normal2, which points out of B as well. A manifold's normal points from its first
 //              body to its second, which may be either.
-// Points       Midway between those on both bodies; of a query one.
+// Points       Midway between those on both bodies; of a query one, of a floor the 16 deepest.
 // Threshold    The query's prediction; the world's prediction distance, at least its own of 2 mm.
 //              What lies beyond the threshold nevertheless is dropped.
 // Precision    Poses are rounded to float.
 // Traps        A panic of Rust is a trap of WebAssembly: the client ends and is started again.
 //
-// node rapier.mjs [world]
+// node rapier.mjs [world | floor | floor-edges]
 import { run } from '../clients/touchstone_candidate.mjs';
+import { FLOOR, makeFloor } from './floor.mjs';
 import { ALL_PAIRS, Y_TO_Z, load, middle, multiply, rotate, versionOf } from './packages.mjs';
 
 const { default: RAPIER } = await load('@dimforge/rapier3d-compat');
 await RAPIER.init();
+
+const mode = process.argv[2];
 
 function makeShape(shape) {
   switch (shape.shape) {
@@ -34,6 +39,9 @@ function makeShape(shape) {
     case 'convex': return shape.vertices.length === 3
       ? new RAPIER.Triangle(...shape.vertices.map(toVector))
       : new RAPIER.ConvexPolyhedron(new Float32Array(shape.vertices.flat()));
+    case 'floor': return new RAPIER.TriMesh(new Float32Array(shape.corners.flat()),
+      new Uint32Array(shape.triangles.flat()),
+      mode === 'floor-edges' ? RAPIER.TriMeshFlags.FIX_INTERNAL_EDGES : undefined);
     default: return new RAPIER.HalfSpace(toVector(shape.normal));
   }
 }
@@ -92,8 +100,9 @@ const byWorld = {
 
   query({ b, threshold, bodyA, bodyB, colliderA, colliderB }, poseA, poseB) {
     const atA = toVector(poseA.position), turnA = toQuaternion(poseA, true);
-    const turnB = toQuaternion(poseB, isAlongY(b));
-    const atB = b.shape === 'plane' ? onPlane(b, poseB) : toVector(poseB.position);
+    const placeB = b.shape === 'floor' ? b.at(poseA, poseB) : poseB;
+    const atB = b.shape === 'plane' ? onPlane(b, poseB) : toVector(placeB.position);
+    const turnB = toQuaternion(placeB, isAlongY(b));
     world.integrationParameters.normalizedPredictionDistance = Math.max(OWN_PREDICTION, threshold);
     bodyA.setTranslation(atA.x, atA.y, atA.z).setRotation(turnA);
     bodyB.setTranslation(atB.x, atB.y, atB.z).setRotation(turnB);
@@ -119,7 +128,9 @@ const byWorld = {
       });
       if (points.length === 0) return null;
       const deepest = points.reduce((u, v) => v.depth > u.depth ? v : u);
-      return { signed_distance: -deepest.depth, normal: deepest.normal, points };
+      points.sort((u, v) => v.depth - u.depth);
+      return { signed_distance: -deepest.depth, normal: deepest.normal,
+        points: points.slice(0, 16) };
     } finally {
       world.removeRigidBody(madeA);
       world.removeRigidBody(madeB);
@@ -127,10 +138,22 @@ const byWorld = {
   },
 };
 
+const onFloor = {
+  ...byWorld,
+  ...FLOOR,
+  name: `rapier-${mode}`,
+  settings: `plane or box as TriMesh${mode === 'floor-edges' ? ' with FIX_INTERNAL_EDGES' : ''} ` +
+    `of N by N squares of two triangles; ${byWorld.settings}`,
+  prepare(a, b, threshold, count) {
+    const floor = makeFloor(a, b, count);
+    return floor && byWorld.prepare(a, floor, threshold);
+  },
+};
+
 run({
-  ...process.argv[2] === 'world' ? byWorld : byQuery,
+  pairs: ALL_PAIRS,
+  ...{ world: byWorld, floor: onFloor, 'floor-edges': onFloor }[mode] ?? byQuery,
   version: versionOf('@dimforge/rapier3d-compat'),
   precision: 'float',
   runs: 'wasm',
-  pairs: ALL_PAIRS,
 });
