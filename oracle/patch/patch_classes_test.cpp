@@ -7,6 +7,7 @@
 #include "oracle/truth.hpp"
 #include "properties/identity.hpp"
 #include "properties/moves.hpp"
+#include "reference/random_bodies_test.hpp"
 
 namespace touchstone::oracle {
 namespace {
@@ -48,8 +49,10 @@ void for_all_normals(Pair pair, const Check& check) {
 }
 
 class PatchClasses : public testing::TestWithParam<Pair> {};
+/// Of bodies whose features follow from how the normal lies to their axes.
+class PatchesOfAxes : public PatchClasses {};
 
-TEST_P(PatchClasses, TheExactPatchLiesWithinThatOfEveryEpsilon) {
+TEST_P(PatchesOfAxes, HaveTheExactOneWithinThatOfEveryEpsilon) {
   for_all_normals(GetParam(), [](const Configuration& c, const OptimalNormal& n, double) {
     for (const double epsilon : {1e-4, 1e-9}) {
       const ContactPatch wider = contact_patch(c, n.n, epsilon * larger_size(c));
@@ -104,9 +107,8 @@ TEST_P(PatchClasses, ScalesWithTheUnitOfLength) {
   });
 }
 
-INSTANTIATE_TEST_SUITE_P(, PatchClasses, testing::ValuesIn(all_pairs), [](const auto& pair) {
-  return std::string(pair_name(pair.param)).substr(std::string("cylinder-").size());
-});
+INSTANTIATE_TEST_SUITE_P(, PatchClasses, testing::ValuesIn(all_pairs), name_of_other);
+INSTANTIATE_TEST_SUITE_P(, PatchesOfAxes, testing::ValuesIn(pairs_of_sizes), name_of_other);
 
 }  // namespace
 
