@@ -111,15 +111,34 @@ FacingFeature facing(const PosedBox& body, const Vec3& outward, double slack) {
   return feature;
 }
 
+void set_facet(FacingFeature& feature, const PosedConvex& body, const ConvexTables::Facet& facet,
+               int corner) {
+  const Vec3& v = body.body.tables().vertex(corner);
+  feature.sine = 1;
+  feature.kind = Kind::polygon;
+  feature.axis = body.axes * facet.normal;
+  feature.middle = body.centre + body.axes * v;
+  feature.middle += (facet.offset - facet.normal.dot(v)) * feature.axis;
+  feature.hull = &body;
+  feature.facet = &facet;
+}
+void set_edge(FacingFeature& feature, const PosedConvex& body, const ConvexTables::Edge& edge) {
+  feature.sine = 1;
+  feature.kind = Kind::segment;
+  feature.left_out[0] = 0;
+  feature.axis = body.axes * edge.along;
+  feature.half_length = edge.length / 2;
+  feature.radius = 0;
+  feature.middle = body.centre + body.axes * (edge.from + edge.length / 2 * edge.along);
+}
+
 /// Of the facets and edges at the farthest vertex, those that lean least.
 FacingFeature facing(const PosedConvex& body, const Vec3& outward, double slack) {
   const ConvexTables& hull = body.body.tables();
   const Vec3 n = body.axes.transpose() * outward;
-  const auto in_frame = [&](const Vec3& x) -> Vec3 { return body.centre + body.axes * x; };
   const int top = hull.farthest_vertex(n);
   FacingFeature feature;
   feature.sine = 1;
-
   const ConvexTables::Facet* facet = nullptr;
   double least = std::numeric_limits<double>::infinity();
   for (const int f : hull.vertex_facets.of(top)) {
@@ -137,13 +156,8 @@ FacingFeature facing(const PosedConvex& body, const Vec3& outward, double slack)
     // Half of its width where it leans, as far as there is one.
     const double half = least > 0 ? (high - low) / 2 / least : 0;
     if (const double part = part_of_flat(half, least, slack); part > 0) {
-      feature.kind = Kind::polygon;
+      set_facet(feature, body, *facet, top);
       feature.part = part;
-      feature.axis = body.axes * facet->normal;
-      feature.middle = in_frame(hull.vertex(top));
-      feature.middle += (facet->offset - facet->normal.dot(hull.vertex(top))) * feature.axis;
-      feature.hull = &body;
-      feature.facet = facet;
       return feature;
     }
   }
@@ -156,16 +170,12 @@ FacingFeature facing(const PosedConvex& body, const Vec3& outward, double slack)
   }
   const double along = edge->along.dot(n), half = edge->length / 2;
   if (const double part = part_of_flat(half, along, slack); part > 0) {
-    feature.kind = Kind::segment;
+    set_edge(feature, body, *edge);
     feature.part = part;
     feature.left_out[0] = -std::copysign(2 * (1 - part) * half, along);
-    feature.axis = body.axes * edge->along;
-    feature.half_length = half;
-    feature.radius = 0;
-    feature.middle = in_frame(edge->from + half * edge->along);
     return feature;
   }
-  feature.middle = in_frame(hull.vertex(top));
+  feature.middle = body.centre + body.axes * hull.vertex(top);
   return feature;
 }
 

@@ -66,4 +66,9 @@ FacingFeature facing(const PosedCapsule& body, const Vec3& outward, double slack
 FacingFeature facing(const PosedBox& body, const Vec3& outward, double slack);
 FacingFeature facing(const PosedConvex& body, const Vec3& outward, double slack);
 
+/// Makes the feature a facet, of which one corner is named, or an edge, whichever way they lean.
+void set_facet(FacingFeature& feature, const PosedConvex& body, const ConvexTables::Facet& facet,
+               int corner);
+void set_edge(FacingFeature& feature, const PosedConvex& body, const ConvexTables::Edge& edge);
+
 }  // namespace touchstone

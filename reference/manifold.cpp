@@ -77,6 +77,53 @@ double max_depth(const Contact& contact) {
   return depth;
 }
 
+/// How far a point of a contact with this normal lies off either body.
+template <class Body>
+double off_bodies(const ContactPoint& p, const Vec3& n, const PosedCylinder& a, const Body& b,
+                  const Vec3& origin) {
+  const Vec3 x = p.position - origin, half = p.depth / 2 * n;
+  return std::max(outside(a, x - half), outside(b, x + half));
+}
+
+/// Of a hull whose faces lie nearly in one plane, or whose vertices nearly coincide, several
+/// features are as far along the normal, and `facing` takes one at the first vertex, which A need
+/// not meet. Goes through all of them, facets first, and sets `contact` to the points of the first
+/// one that are on both bodies. False if there is none.
+bool meet_any(Contact& contact, const FacingFeature& on_a, const PosedCylinder& a,
+              const PosedConvex& b, const Vec3& origin, const Margins& sharp) {
+  const ConvexTables& hull = b.body.tables();
+  const Vec3 n = b.axes.transpose() * contact.normal;
+  constexpr double as_far = 16;  // roundings, of the normal and of places
+  const double level = hull.support(n) - as_far * sharp.rounding;
+  const auto is_far = [&](int v) { return hull.vertex(v).dot(n) >= level; };
+  Contact trial = contact;
+  FacingFeature on_b;
+  const auto is_met = [&] {
+    trial.clear_points();
+    add_points_of_features(trial, on_a, on_b, origin, sharp);
+    const ContactPoint* found = deepest_point(trial);
+    const bool is_right =
+        found && std::abs(found->depth + trial.signed_distance) <= as_far * sharp.rounding &&
+        off_bodies(*found, trial.normal, a, b, origin) <= as_far * sharp.rounding;
+    if (is_right) contact = trial;
+    return is_right;
+  };
+  for (const ConvexTables::Facet& f : hull.facets) {
+    if (f.normal.dot(n) > 0 && std::all_of(f.corners.begin(), f.corners.end(), is_far) &&
+        (set_facet(on_b, b, f, f.corners.front()), is_met())) {
+      return true;
+    }
+  }
+  return std::any_of(hull.edges.begin(), hull.edges.end(), [&](const ConvexTables::Edge& e) {
+    return is_far(e.vertices[0]) && is_far(e.vertices[1]) && (set_edge(on_b, b, e), is_met());
+  });
+}
+template <class Body>
+bool meet_any(Contact&, const FacingFeature&, const PosedCylinder&, const Body&, const Vec3&,
+              const Margins&) {
+  return false;
+}
+
 /// Adds a point of the whole depth, where those features meet that face each other but for
 /// rounding: others, which lean, are carried to each other with an error of the second order, which
 /// may part them. Points that this has put off a body are left out.
@@ -93,15 +140,24 @@ template <class Body>
   add_points_of_features(contact, on_a, on_b, origin, sharp);
   const Contact& fuller = max_depth(contact) >= max_depth(before) ? contact : before;
   const ContactPoint* found = deepest_point(fuller);
+  if (found && (found->depth < -contact.signed_distance - margins.unseen_depth() ||
+                off_bodies(*found, n, a, b, origin) > margins.unseen_depth())) {
+    for (const double flat : {sharp.flat, margins.flat}) {
+      Contact other = contact;
+      if (meet_any(other, facing(a, -n, flat), a, b, origin, sharp)) {
+        contact = other;
+        found = deepest_point(contact);
+        break;
+      }
+    }
+  }
   const Vec3 position =
       found ? found->position : origin + (on_a.middle - contact.signed_distance / 2 * n);
   const double depth = -contact.signed_distance, least = depth - margins.slack - margins.rounding;
   contact.clear_points();
   contact.add_point(position, depth);
   for (const ContactPoint& p : before.points()) {
-    const Vec3 x = p.position - origin, half = p.depth / 2 * n;
-    const bool is_on_both =
-        std::max(outside(a, x - half), outside(b, x + half)) <= margins.unseen_depth();
+    const bool is_on_both = off_bodies(p, n, a, b, origin) <= margins.unseen_depth();
     if (p.depth >= least && is_on_both && p.position != position &&
         contact.points().size() < Contact::max_points) {
       contact.add_point(p.position, p.depth);
@@ -131,8 +187,7 @@ bool are_on_both(const Contact& contact, const PosedCylinder& a, const PosedConv
   constexpr double slant = 50;  // slack over size, half squared: 1e-3 is a slant of 1e-2
   const double tolerance = margins.unseen_depth() + slant * margins.slack * margins.slack / largest;
   return std::all_of(contact.points().begin(), contact.points().end(), [&](const ContactPoint& p) {
-    const Vec3 x = p.position - origin, half = p.depth / 2 * contact.normal;
-    return std::max(outside(a, x - half), outside(b, x + half)) <= tolerance;
+    return off_bodies(p, contact.normal, a, b, origin) <= tolerance;
   });
 }
 template <class Body>

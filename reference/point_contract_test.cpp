@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
-#include <iterator>
 #include <limits>
 #include <string>
 #include <vector>
@@ -80,8 +79,6 @@ TEST_P(PointContract, HoldsInEveryPoseClassAtEveryThreshold) {
 }
 
 class PointContractOfHulls : public testing::TestWithParam<HullKind> {};
-class PointContractOfHintedHulls : public PointContractOfHulls {};
-class PointContractOfAllPointsOfHulls : public PointContractOfHulls {};
 
 TEST_P(PointContractOfHulls, HoldsAtEveryThreshold) {
   Random random(1);
@@ -99,7 +96,7 @@ TEST_P(PointContractOfHulls, HoldsAtEveryThreshold) {
     }
   }
 }
-TEST_P(PointContractOfHintedHulls, HoldsWithAnyPreviousNormalToWithinTheThreshold) {
+TEST_P(PointContractOfHulls, HoldsWithAnyPreviousNormalToWithinTheThreshold) {
   Random random(2);
   for (std::uint64_t i = 0; i < contacts_per_class(); ++i) {
     SCOPED_TRACE(i);
@@ -128,7 +125,7 @@ TEST_P(PointContractOfHintedHulls, HoldsWithAnyPreviousNormalToWithinTheThreshol
   }
 }
 
-TEST_P(PointContractOfAllPointsOfHulls, HoldsOfAllPointsWithinTheThreshold) {
+TEST_P(PointContractOfHulls, HoldsOfAllPointsWithinTheThreshold) {
   constexpr double leans_most = 0.1;
   Random random(3);
   for (std::uint64_t i = 0; i < contacts_per_class(); ++i) {
@@ -148,18 +145,7 @@ TEST_P(PointContractOfAllPointsOfHulls, HoldsOfAllPointsWithinTheThreshold) {
 std::string hull_name(const testing::TestParamInfo<HullKind>& kind) {
   return hull_kind_names[static_cast<int>(kind.param)];
 }
-/// Of several faces nearly in one plane the one that is taken may lie beside A (README.md, "Contact
-/// points"), so that a point is off a surface; where that occurs, it is not asked.
-std::vector<HullKind> hull_kinds_but(HullKind left_out) {
-  std::vector<HullKind> kinds(std::begin(hull_kinds), std::end(hull_kinds));
-  std::erase(kinds, left_out);
-  return kinds;
-}
 INSTANTIATE_TEST_SUITE_P(, PointContractOfHulls, testing::ValuesIn(hull_kinds), hull_name);
-INSTANTIATE_TEST_SUITE_P(, PointContractOfHintedHulls,
-                         testing::ValuesIn(hull_kinds_but(HullKind::nearly_flat)), hull_name);
-INSTANTIATE_TEST_SUITE_P(, PointContractOfAllPointsOfHulls,
-                         testing::ValuesIn(hull_kinds_but(HullKind::needle)), hull_name);
 
 // Along a previous normal that only ties, features need not reach each other: points then lie on
 // the bodies to within the threshold, or the bodies part along their best normal.
