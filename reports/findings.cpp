@@ -7,6 +7,7 @@
 
 #include "properties/files/given_text.hpp"
 #include "reports/factors.hpp"
+#include "reports/row_text.hpp"
 #include "reports/terminal.hpp"
 
 namespace touchstone {
@@ -41,6 +42,14 @@ std::vector<Failing> contrasts_that_fail(const Report& report) {
   return result;
 }
 
+/// What the candidate's model costs, and how well it is solved: which of them a failure comes from.
+std::string model_text(const Statistics& s) {
+  if (!s.model_error || !s.solver_error) return "";
+  return fmt::format("; 99%: what it models is off by at most {} of the size, and solved to {}",
+                     scientific(s.model_error, &Quantiles::p99),
+                     scientific(s.solver_error, &Quantiles::p99));
+}
+
 /// The most frequent failure of each pair, group and candidate.
 std::vector<Failing> frequent_failures(const Report& report) {
   std::vector<Failing> result;
@@ -58,9 +67,11 @@ std::vector<Failing> frequent_failures(const Report& report) {
              w.score.outcome == outcome;
     });
     if (worst == report.worst.end()) continue;
-    const std::string text = fmt::format(
-        "{}: {} in {} of {} of {}", shown_name(row.candidate), outcome_name(outcome),
-        times(outcome), counted(row.statistics.supported(), row.pose_class + " pose"), row.pair);
+    const std::string text =
+        fmt::format("{}: {} in {} of {} of {}", shown_name(row.candidate), outcome_name(outcome),
+                    times(outcome), counted(row.statistics.supported(), row.pose_class + " pose"),
+                    row.pair) +
+        model_text(row.statistics);
     result.push_back(
         {{row.candidate, text, worst->examination.replay},
          row.pair,

@@ -41,6 +41,13 @@ class Failures {
                              {"", any, std::nullopt, {}, std::string("replay ") + pair}});
     return *this;
   }
+  /// Of the last row.
+  Failures& split(double of_model, double of_solver) {
+    Statistics& s = report_.summary.back().statistics;
+    s.model_error = Quantiles{of_model, of_model, of_model};
+    s.solver_error = Quantiles{of_solver, of_solver, of_solver};
+    return *this;
+  }
   Failures& contrast(const char* candidate, const char* modifier, std::uint64_t failed) {
     report_.contrasts.push_back(
         {"cylinder-cylinder",
@@ -65,6 +72,17 @@ class Failures {
  private:
   Report report_;
 };
+
+TEST(Findings, TellWhatAModelCostsFromHowWellItIsSolved) {
+  const Failures failures = Failures()
+                                .candidate("bullet")
+                                .row("cylinder-box", "everyday", "bullet", Outcome::missed, 20)
+                                .split(0.033, 2e-6);
+  EXPECT_THAT(
+      failures.texts(),
+      ElementsAre("bullet: missed in 20 of 100 everyday poses of cylinder-box; 99%: what it "
+                  "models is off by at most 3.3e-02 of the size, and solved to 2.0e-06"));
+}
 
 TEST(Findings, AreOfThreeEnginesTheMostFrequentFailuresFirst) {
   const Failures failures =

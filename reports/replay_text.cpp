@@ -56,11 +56,23 @@ std::string truth_text(const Configuration& c, const oracle::Truth& truth,
   return text;
 }
 
+/// Of an engine that rounds the bodies in its way.
+std::string roundings_text(const Answer& answer) {
+  if (!answer.roundings) return "";
+  const auto [of_a, of_b] = *answer.roundings;
+  return fmt::format(" (a rounded by {:.6g} m, b by {:.6g} m)", of_a, of_b);
+}
+
 std::string answer_text(const ScoredAnswer& scored, const Terminal& terminal) {
   const auto& [candidate, answer, score] = scored;
   std::string text = terminal.folded(fmt::format(
       "{}: {}, {}", candidate, status_name(answer.status), outcome_name(score.outcome)));
   if (!answer.reason.empty()) text += terminal.below(answer.reason);
+  if (score.model_error) {
+    text += terminal.below(fmt::format("of what it models{}: error {}, of how it solves that: {}",
+                                       roundings_text(answer), rounded(score.model_error),
+                                       rounded(score.solver_error)));
+  }
   if (answer.status != TS_CONTACT) return text;
   text += terminal.below("signed distance " + number_or_dash(answer.signed_distance)) +
           vector_line("  normal ", Vec3(answer.normal), terminal);

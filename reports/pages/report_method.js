@@ -30,7 +30,7 @@ function method() {
     ['not-finite, failed, unsupported', 'A NaN or infinity in the answer; the candidate says that it could not answer; it has no routine for the pair, which does not count against it.'],
     ['crashed, timed-out', 'The candidate ended its process (a signal, an exception, too much memory), or took longer than 50 ms of processor time, unless asked otherwise; after a first time-out among up to 1,024 configurations, a hundred times its median there, at least a tenth of that. Each candidate has a process of its own.'],
     ['not-asked', 'In a pose class where the candidate had timed out three times (among up to 512 configurations), it was stopped: the further ones of these were not asked. Shares (≥) count them against it; errors are of what was asked.'],
-    ['model error, solver error', 'Of a simplified model: the true signed distance of what it models against that of the cylinder, and its answer against that of what it models.'],
+    ['model error, solver error', 'Of a simplified model, or an engine that says how it rounds edges: the true signed distance of what it models against that of the bodies, and its answer against that of what it models. A missed contact whose model is apart is the model’s.'],
     ['time', 'Narrow phase alone, one thread, shapes prepared beforehand, candidates in random turns on the same configurations, each in its own process, which reads the clock itself: median and quartiles of repeated measurements, in each of which the classes’ median counts. p95: each configuration timed singly, with its least time; what 95% of a class keep, and of several classes the longest. Candidates whose quartiles overlap tie (~: with Bullet).'],
   ]);
   const m = report.machine, o = report.oracle_microseconds;

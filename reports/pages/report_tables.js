@@ -59,8 +59,8 @@ function timeCell(r) {
 }
 const biasText = r => r.bias === null ? '–' : `${r.bias.median > 0 ? '+' : ''}${exponent(r.bias.median)}`;
 
-// The errors of a simplified model and of its solver.
-const modelled = report.summary.filter(r => r.model_error !== null && report.candidates.some(c => c.name === r.candidate && c.models));
+// The errors of a model, be it a simplified one or a body with rounded edges, and of its solver.
+const modelled = report.summary.filter(r => r.model_error !== null);
 function modelTable() {
   const rows = modelled.filter(r => r.class === chosen.group && r.pair === summedPair()).map(r => {
     const name = rowHead(...namedOver(r));

@@ -58,6 +58,10 @@ const Program& find_program(std::string_view name, std::string_view language,
                             const Configuration& c, const Candidate* candidate) {
   static const Program plugin{"", "", "", cpp, plugin_template, ""};
   static const Program command{"", "", "", python, command_py_template, ""};
+  if (c.a.rounding() > 0 || rounding_of(c.b) > 0) {
+    throw InvalidInput("--emit", string_literal(name),
+                       "must be left out: programs have no rounded bodies");
+  }
   const Pair pair = pair_of(c);
   std::vector<const Program*> of_engine;
   for (const Program& p : programs()) {
