@@ -12,8 +12,9 @@ struct Finding {
   std::string candidate, text, command;
 };
 
-/// What to see first of a report, at most three: the arrangement that a candidate passes and most
-/// clearly fails once turned (or, where there is none, tilted); then the most frequent failures of
+/// What to see first of a report, at most three: what floors of triangles make of a plane at their
+/// seams, where they were asked; the arrangement that a candidate passes and most clearly fails
+/// once turned (or, where there is none, tilted); then the most frequent failures of
 /// a pair in the first group of poses in which there are any. Each is of another engine as far as
 /// there are some that fail, and of a simplified model, which fails by design, only where nothing
 /// else does.

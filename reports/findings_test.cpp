@@ -29,6 +29,7 @@ class Failures {
     row.statistics.count = 100;
     row.statistics.outcomes[static_cast<std::size_t>(Outcome::agree)] = 100 - times;
     row.statistics.outcomes[static_cast<std::size_t>(outcome)] += times;
+    row.statistics.normal_angle = Quantiles{0, 0, 40.4};
     report_.summary.push_back(row);
     Score score;
     score.outcome = outcome;
@@ -126,6 +127,23 @@ TEST(Findings, AreOfModelsWhereNothingElseFails) {
                   .texts(),
               ElementsAre("ode: off-body in 3 of 100 everyday poses of cylinder-box",
                           "capsule: missed in 80 of 100 everyday poses of cylinder-box"));
+}
+
+// Every other normal than the plane's own is that of an edge between its triangles.
+TEST(Findings, NameTheSeamsOfAFloorOfTriangles) {
+  EXPECT_THAT(
+      Failures()
+          .candidate("ode")
+          .candidate("bullet-floor:8")
+          .row("cylinder-plane", "everyday", "bullet-floor:8", Outcome::wrong_normal, 2)
+          .row("cylinder-box", "everyday", "bullet-floor:8", Outcome::wrong_normal, 60)
+          .row("cylinder-box", "everyday", "ode", Outcome::missed, 50)
+          .contrast("ode", "turned", 40)
+          .texts(),
+      ElementsAre("bullet-floor:8: at seams normals are up to 40° off, wrong-normal in 2 of 100 "
+                  "everyday poses of cylinder-plane",
+                  "ode: cylinder-cylinder/perpendicular-t agrees in 100%, turned in 60%",
+                  "bullet-floor:8: wrong-normal in 60 of 100 everyday poses of cylinder-box"));
 }
 
 TEST(Findings, AreOfEverydayPosesBeforeOthers) {
