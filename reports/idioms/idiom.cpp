@@ -57,7 +57,7 @@ const std::vector<Idiom>& all_idioms() {
 /// Can its part that asks stand in a class, or a function, of its own for each pair?
 bool fits(const Program& program, const Idiom& idiom) {
   return &program.language == &idiom.language && program.engine != "jolt-margin" &&
-         program.source.find(idiom.marker) != program.source.npos;
+         !has_floor(program) && program.source.find(idiom.marker) != program.source.npos;
 }
 
 const Program& program_of(const Idiom& idiom, const std::string& engine) {
@@ -314,7 +314,7 @@ std::string idiom_file(const IdiomRequest& request) {
                                                  : "0, 0, 1"},
                     {"order", habit.real_part_first ? "w, x, y, z" : "x, y, z, w"}});
   texts.merge(npm_texts(program, program.engine, candidate, cases.front().configuration));
-  const Tags of_file = {"engine", idiom.name, habit.real_part_first ? "wxyz" : "xyzw"};
+  const Tags of_file = {"engine", "solid", idiom.name, habit.real_part_first ? "wxyz" : "xyzw"};
   const auto tags_of = [&](const IdiomCase& c) {
     const Pair pair = pair_of(c.configuration);
     Tags result = names_in(tags_for(program, pair));

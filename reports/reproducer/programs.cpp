@@ -30,7 +30,10 @@ std::span<const Program> programs() {
       Program{"bullet-float", "bullet-float", "Bullet", cpp, bullet_template, "float,rounded"},
       Program{"bullet-float-margin-0", "bullet-float-margin-0", "Bullet", cpp, bullet_template,
               "float,sharp"},
+      Program{"bullet-floor", "bullet-floor", "Bullet", cpp, bullet_template,
+              "double,rounded,floor"},
       Program{"ode", "ode", "ODE", cpp, ode_template, ""},
+      Program{"ode-floor", "ode-floor", "ODE", cpp, ode_template, "floor"},
       Program{"fcl", "fcl", "FCL", cpp, fcl_template, "collide"},
       Program{"fcl-indep", "fcl-indep", "FCL", cpp, fcl_template, "indep"},
       Program{"fcl-distance", "fcl-distance", "FCL", cpp, fcl_template, "distance", false},
@@ -65,7 +68,10 @@ std::span<const Program> programs() {
 
 std::string_view family_of(std::string_view name) { return name.substr(0, name.find(':')); }
 
+bool has_floor(const Program& program) { return program.tags.ends_with("floor"); }
+
 bool knows(const Program& program, Pair pair) {
+  if (has_floor(program)) return pair == Pair::plane || pair == Pair::box;
   if (pair == Pair::plane) return program.plane;
   return pair != Pair::convex || program.source.find("convex]") != program.source.npos;
 }

@@ -34,6 +34,9 @@ struct Program {
 /// Those that need nothing of ours. The first of an engine is the usual one.
 std::span<const Program> programs();
 
+/// Does it ask about a floor of triangles?
+bool has_floor(const Program& program);
+
 /// Has the program lines for the pair? Those that know convex bodies have lines for them.
 bool knows(const Program& program, Pair pair);
 

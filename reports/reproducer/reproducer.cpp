@@ -8,6 +8,7 @@
 #include <string>
 
 #include "candidates/candidates.hpp"
+#include "candidates/floor.hpp"
 #include "candidates/npm_engines.hpp"
 #include "candidates/readable.hpp"
 #include "oracle/truth.hpp"
@@ -66,8 +67,8 @@ const Program& find_program(std::string_view name, std::string_view language,
   std::vector<const Program*> of_engine;
   for (const Program& p : programs()) {
     // Another setting of an engine is asked as the plug-in that it is.
-    if (p.engine == (find_npm_engine(family_of(name)) ? family_of(name) : name) ||
-        p.candidate == name) {
+    const bool takes_number = find_npm_engine(family_of(name)) || has_floor(p);
+    if (p.engine == (takes_number ? family_of(name) : name) || p.candidate == name) {
       of_engine.push_back(&p);
     }
   }
@@ -121,6 +122,18 @@ std::string include_folder() {
     if (std::filesystem::exists(path / "touchstone/candidate.h")) return path.string();
   }
   return "PREFIX/include";
+}
+
+/// What stands in the programs with a floor of triangles, as candidates/floor.hpp has them.
+Texts floor_texts(const Program& program, const Candidate* candidate, const Configuration& c) {
+  if (!has_floor(program) || !candidate) return {};
+  const int count = static_cast<int>(candidate->value);
+  const Floor floor(to_ts_shape(c.a), to_ts_shape(c.b), count);
+  const ts_pose at = floor.at(to_ts_pose(c.pose_a), to_ts_pose(c.pose_b));
+  return {{"squares", std::to_string(count)},
+          {"half_f", fmt::format("{:a}", floor.side() * count / 2)},
+          {"position_f", fmt::format("{:a}", fmt::join(at.position, ", "))},
+          {"orientation_f", fmt::format("{:a}", fmt::join(at.orientation, ", "))}};
 }
 
 /// What stands in the programs that ask a plug-in or a command.
@@ -188,6 +201,7 @@ std::string reproducer(std::string_view name, std::string_view language, const C
   Texts texts = question_texts(c, numbers);
   texts.merge(truth_texts(given, truth, bar, numbers));
   texts.merge(npm_texts(program, name, candidate, c));
+  texts.merge(floor_texts(program, candidate, c));
   texts.merge(candidate_texts(candidate));
   const std::string shape = shape_name(c.b);
   Tags tags = names_in(tags_for(program, pair_of(c)));
@@ -195,7 +209,8 @@ std::string reproducer(std::string_view name, std::string_view language, const C
       tags.end(),
       {shape, tag_of_distance(truth.signed_distance.midpoint(), allowed, bar.threshold),
        candidate && candidate->command() && candidate->command()->in_frames ? "frames" : "lines",
-       program.engine.empty() ? "plugin" : "engine", is_test ? "test" : "program"});
+       program.engine.empty() ? "plugin" : "engine", has_floor(program) ? "floor" : "solid",
+       is_test ? "test" : "program"});
   const bool is_round = shape == "cylinder" || shape == "capsule";
   texts.merge(
       Texts{{"engine", title},
@@ -219,6 +234,7 @@ std::string reproducer(std::string_view name, std::string_view language, const C
   texts["head"] = part(head_template);
   texts["answer"] = part(section(program.language.shared, "answer"));
   texts["question"] = part(section(program.language.shared, "question")) + '\n';
+  if (has_floor(program)) texts["floor"] = part(section(program.language.shared, "floor")) + '\n';
   texts["judgement"] = part(section(program.language.shared, "judgement"));
   return part(program.source) + '\n';
 }
