@@ -32,7 +32,17 @@ struct MakeGeom {
     const Vec3 side = 2 * s.half_extents();
     return dCreateBox(space, side.x(), side.y(), side.z());
   }
-  dGeomID operator()(const Convex& s) const { return meshes.make(space, s); }
+  dGeomID operator()(const Convex& s) const {
+    std::vector<dTriIndex> indices;
+    for (const Convex::Face& face : s.faces()) {
+      const auto corner = [&](std::size_t i) { return static_cast<dTriIndex>(face.vertices[i]); };
+      for (std::size_t i = 2; i < face.vertices.size(); ++i) {
+        indices.insert(indices.end(), {corner(0), corner(i - 1), corner(i)});
+      }
+    }
+    return meshes.emplace_back(std::make_unique<OdeMesh>(s.vertices(), std::move(indices)))
+        ->make_geom(space);
+  }
 };
 
 /// The posed plane in world coordinates.
@@ -60,24 +70,6 @@ dBodyID make_ode_body(dWorldID world, const Assembly& assembly) {
   dMassSetParameters(&mass, assembly.inertia.mass, 0, 0, 0, i.x(), i.y(), i.z(), 0, 0, 0);
   dBodySetMass(made, &mass);
   return made;
-}
-
-OdeMeshes::~OdeMeshes() {
-  for (const Mesh& mesh : meshes_) dGeomTriMeshDataDestroy(mesh.data);
-}
-
-dGeomID OdeMeshes::make(dSpaceID space, const Convex& hull) {
-  Mesh& mesh = meshes_.emplace_back(Mesh{hull, {}, dGeomTriMeshDataCreate()});
-  for (const Convex::Face& face : hull.faces()) {
-    const auto corner = [&](std::size_t i) { return static_cast<dTriIndex>(face.vertices[i]); };
-    for (std::size_t i = 2; i < face.vertices.size(); ++i) {
-      mesh.corners.insert(mesh.corners.end(), {corner(0), corner(i - 1), corner(i)});
-    }
-  }
-  dGeomTriMeshDataBuildDouble(mesh.data, mesh.hull.vertices().data(), sizeof(Vec3),
-                              static_cast<int>(mesh.hull.vertices().size()), mesh.corners.data(),
-                              static_cast<int>(mesh.corners.size()), 3 * sizeof(dTriIndex));
-  return dCreateTriMesh(space, mesh.data, nullptr, nullptr, nullptr);
 }
 
 dGeomID make_ode_geom(dSpaceID space, const Shape& shape, dBodyID moving, const Pose& pose,

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <memory>
 #include <ode/ode.h>
 #include <vector>
 
+#include "candidates/ode_mesh.hpp"
 #include "simulation/assembly.hpp"
 
 // The bodies and joints of a scene in a world of ODE, whoever finds the contacts.
@@ -19,26 +21,9 @@ struct OdeQuaternion {
 /// fixed.
 dBodyID make_ode_body(dWorldID world, const Assembly& assembly);
 
-/// Hulls as meshes of triangles: ODE's convex geoms end the process where two of them touch. Must
-/// outlive its geoms.
-class OdeMeshes {
- public:
-  OdeMeshes() = default;
-  ~OdeMeshes();
-  OdeMeshes(const OdeMeshes&) = delete;
-  OdeMeshes& operator=(const OdeMeshes&) = delete;
-
-  dGeomID make(dSpaceID space, const Convex& hull);
-
- private:
-  /// ODE keeps pointers to the hull's vertices and to the corners of the triangles.
-  struct Mesh {
-    Convex hull;
-    std::vector<dTriIndex> corners;
-    dTriMeshDataID data;
-  };
-  std::vector<Mesh> meshes_;
-};
+/// Hulls and floors as meshes of triangles, for ODE's convex geoms end the process where two of them
+/// touch. Must outlive their geoms.
+using OdeMeshes = std::vector<std::unique_ptr<OdeMesh>>;
 
 /// Geometry at a pose in the frame of `moving`, or in the world if that is null. A plane is made in
 /// world coordinates: ODE's have no pose.

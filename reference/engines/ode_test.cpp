@@ -11,10 +11,12 @@ namespace touchstone {
 namespace {
 
 class Geoms {
+  OdeMeshes meshes_;
+
  public:
   explicit Geoms(const Configuration& c)
-      : a(make_ode_geom(nullptr, c.a, nullptr, c.pose_a)),
-        b(make_ode_geom(nullptr, c.b, nullptr, c.pose_b)) {}
+      : a(make_ode_geom(nullptr, c.a, nullptr, c.pose_a, meshes_)),
+        b(make_ode_geom(nullptr, c.b, nullptr, c.pose_b, meshes_)) {}
   ~Geoms() {
     dGeomDestroy(a);
     dGeomDestroy(b);
@@ -177,7 +179,8 @@ TEST_F(OdeDropIn, AnswersTurnedGeomsInTransformsAndWithOffsetsInBothOrders) {
 
 TEST_F(OdeDropIn, ACapsuleOfZeroLengthIsASphere) {
   const Configuration c{Cylinder(0.5, 0.5), Pose(), Sphere(0.25), Pose(Vec3(0, 0.1, 0.7))};
-  const dGeomID can = make_ode_geom(nullptr, c.a, nullptr, c.pose_a);
+  OdeMeshes meshes;
+  const dGeomID can = make_ode_geom(nullptr, c.a, nullptr, c.pose_a, meshes);
   const dGeomID capsule = dCreateCapsule(nullptr, 0.25, 0);
   dGeomSetPosition(capsule, 0, 0.1, 0.7);
   expect_in_both_orders(c, can, capsule);

@@ -108,8 +108,8 @@ class OdeWorld : public EngineWorld {
   }
 
   dGeomID make_floor(const Piece& piece, const Pose& pose) {
-    floors_.push_back(ode_floor(piece.floor()));
-    const dGeomID made = floors_.back()->make_geom(space_);
+    meshes_.push_back(ode_floor(piece.floor()));
+    const dGeomID made = meshes_.back()->make_geom(space_);
     const Vec3& p = pose.position();
     dGeomSetPosition(made, p.x(), p.y(), p.z());
     dGeomSetQuaternion(made, OdeQuaternion(pose).wxyz);
@@ -143,7 +143,6 @@ class OdeWorld : public EngineWorld {
 
   bool is_direct_;
   dWorldID world_;
-  std::vector<std::unique_ptr<OdeMesh>> floors_;
   dSpaceID space_;
   dJointGroupID contacts_;
   OdeMeshes meshes_;
