@@ -66,7 +66,9 @@ bool in_float(const Configuration& c) {
   return std::all_of(numbers.sizes.begin(), numbers.sizes.end(), is_float) &&
          std::all_of(numbers.position_a.begin(), numbers.position_a.end(), is_float) &&
          std::all_of(numbers.position_b.begin(), numbers.position_b.end(), is_float) &&
-         is_float(numbers.displacement);
+         is_float(numbers.displacement) &&
+         std::all_of(numbers.vertices.begin(), numbers.vertices.end(),
+                     [&](const Vec3& v) { return std::all_of(v.begin(), v.end(), is_float); });
 }
 
 class Chooser {

@@ -19,6 +19,7 @@
 #include "reports/replay.hpp"
 #include "reports/reproducer/fill_template.hpp"
 #include "reports/reproducer/programs.hpp"
+#include "reports/test_data/test_data.hpp"
 
 namespace touchstone {
 
@@ -54,10 +55,12 @@ const std::vector<Idiom>& all_idioms() {
   return all;
 }
 
-/// Can its part that asks stand in a class, or a function, of its own for each pair?
+/// Can its part that asks stand in a class, or a function, of its own for each pair? Jolt's world
+/// keeps the bodies of earlier cases, and its margins are of no usual world.
 bool fits(const Program& program, const Idiom& idiom) {
   return &program.language == &idiom.language && program.engine != "jolt-margin" &&
-         !has_floor(program) && program.source.find(idiom.marker) != program.source.npos;
+         program.engine != "jolt-world" && !has_floor(program) &&
+         program.source.find(idiom.marker) != program.source.npos;
 }
 
 const Program& program_of(const Idiom& idiom, const std::string& engine) {
@@ -127,6 +130,7 @@ std::string_view deed(const std::string& verdict) {
       {"wrong-normal", "answers a direction along which the bodies overlap more"},
       {"not-finite", "answers what is no number"},
       {"off-body", "answers a point that is on neither body"},
+      {"no-points", "answers no point"},
       {"failed", "fails"}};
   return deeds.at(verdict);
 }
@@ -238,7 +242,9 @@ Texts case_texts(const IdiomCase& c, const std::string& engine, const Idiom& idi
 /// What the tests of Jolt have beside that, whose judge is in each.
 Texts jolt_texts(const IdiomCase& c, const Bar& bar) {
   Texts texts = truth_texts(c.configuration, c.truth, bar, NumberStyle::hexadecimal);
-  const Vec3 axis = Vec3::Zero() - renamed(c.truth.normals.front().n, 'y');
+  const Vec3 axis = -renamed(c.truth.normals.front().n, 'y').unaryExpr([](double x) {
+    return std::abs(x) < negligible_component ? -0.0 : x;
+  });
   texts["true_axis_float"] =
       fmt::format("{:#.9g}f, {:#.9g}f, {:#.9g}f", axis.x(), axis.y(), axis.z());
   texts["allowed_float"] = fmt::format("{:#.2g}f", c.float_tolerance);

@@ -15,26 +15,31 @@ import tempfile
 EXPECTED = {"gtest": r'(EXPECT_EQ\(verdict\(\), )"([a-z-]+)"', "js": r"(\), |reachOf\w+\), )'([a-z-]+)'(?=\);)"}
 NAMES = {"gtest": r"^TEST_F\((\w+), (\w+)\)", "js": r"^test\('(\S+) (\S+)'"}
 
-# Our routine, by its interface in C, in the place of the engine's answer.
-HEADERS_CPP = '#include "reference/touchstone_contacts.h"\n#include <cstdlib>\n\n'
-RIGHT_CPP = """template <class Case>
+# Our routine in the place of the engine's answer.
+HEADERS_CPP = '#include "reference/touchstone.hpp"\n#include <cstdlib>\n\n'
+RIGHT_CPP = """touchstone::Vec3 vec3(const double* v) { return {v[0], v[1], v[2]}; }
+touchstone::Pose pose(const double* p, const double* q) { return {vec3(p), {q[0], q[1], q[2], q[3]}}; }
+template <class Case>
+auto shape_of_b(const Case& c) {
+  if constexpr (requires { c.half_b; }) return touchstone::Box(vec3(c.half_b));
+  else if constexpr (requires { c.normal_b; }) return touchstone::Plane(vec3(c.normal_b), c.displacement_b);
+  else if constexpr (requires { c.faces_b; }) {
+    std::vector<touchstone::Vec3> vertices;
+    for (const auto& v : c.vertices_b) vertices.push_back(vec3(v));
+    return touchstone::Convex(vertices, c.faces_b);
+  } else if constexpr (Case::is_capsule) return touchstone::Capsule(c.radius_b, c.half_length_b);
+  else if constexpr (requires { c.half_length_b; }) return touchstone::Cylinder(c.radius_b, c.half_length_b);
+  else return touchstone::Sphere(c.radius_b);
+}
+template <class Case>
 Answer right_answer(const Case& c) {
-  touchstone_body a{TOUCHSTONE_CYLINDER, {c.radius_a, c.half_length_a}, {}, {}}, b{};
-  if constexpr (requires { c.half_b; }) b = {TOUCHSTONE_BOX, {c.half_b[0], c.half_b[1], c.half_b[2]}, {}, {}};
-  else if constexpr (requires { c.normal_b; })
-    b = {TOUCHSTONE_PLANE, {c.normal_b[0], c.normal_b[1], c.normal_b[2], c.displacement_b}, {}, {}};
-  else if constexpr (requires { c.half_length_b; })
-    b = {c.is_capsule ? TOUCHSTONE_CAPSULE : TOUCHSTONE_CYLINDER, {c.radius_b, c.half_length_b}, {}, {}};
-  else b = {TOUCHSTONE_SPHERE, {c.radius_b}, {}, {}};
-  std::copy_n(c.position_a.of, 3, a.position), std::copy_n(c.orientation_a.of, 4, a.orientation);
-  std::copy_n(c.position_b.of, 3, b.position), std::copy_n(c.orientation_b.of, 4, b.orientation);
-  touchstone_contact found;
-  if (touchstone_find_contact(&a, &b, 0, &found) != 0) std::abort();
+  const touchstone::Contact found =
+      touchstone::contact(touchstone::Cylinder(c.radius_a, c.half_length_a), pose(c.position_a, c.orientation_a),
+                          shape_of_b(c), pose(c.position_b, c.orientation_b), 0);
   Answer answer;
-  const double* n = found.normal;
-  for (int i = 0; i < found.point_count; ++i) {
-    const double* p = found.points[i].position;
-    add(answer, -found.points[i].depth, {n[0], n[1], n[2]}, {p[0], p[1], p[2]});
+  const touchstone::Vec3& n = found.normal;
+  for (const touchstone::ContactPoint& p : found.points()) {
+    add(answer, -p.depth, {n.x(), n.y(), n.z()}, {p.position.x(), p.position.y(), p.position.z()});
   }
   return answer;
 }
@@ -104,7 +109,7 @@ class File:
         command = command.replace("-O2", "-O0")
         if text != self.text:
             library = pathlib.Path(self.program).parent / "reference/libtouchstone_reference.a"
-            command += f" -std=c++20 -I {self.source} {library}"
+            command += f" -std=c++20 -I {self.source} -isystem /usr/include/eigen3 {library}"
         subprocess.run(command, shell=True, check=True, cwd=self.folder)
         return ["./" + name.removesuffix(".cpp")]
 
