@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "candidates/testing/plain_contacts.hpp"
@@ -57,6 +58,18 @@ void for_contacts(const std::string& candidate, double lift, const Check& check)
 }
 
 bool is_flat(const DeepContact& contact) { return contact.body.is_flat(); }
+
+TEST(ConvexContacts, AreThoseOnPaperInOurRoutines) {
+  for (const auto& [name, accuracy] : {std::pair("reference", 1e-13), {"reference-float", 1e-6}}) {
+    for_contacts(name, 0, [&, most = accuracy](const Answer& a, const DeepContact&) {
+      ASSERT_EQ(a.status, TS_CONTACT) << a.reason;
+      EXPECT_NEAR(a.signed_distance, -depth, most);
+      EXPECT_GT(a.normal[2], 1 - most);
+    });
+    for_contacts(name, depth + gap,
+                 [](const Answer& a, const DeepContact&) { EXPECT_EQ(a.status, TS_NONE); });
+  }
+}
 
 TEST(ConvexContacts, AreFoundWhereEdgesAreSharp) {
   // On a corner a side's normal is found by searches to 2 mm and 6 degrees: libccd's are to 1e-4 m.

@@ -6,7 +6,6 @@
 // Threshold    Passed on; a distance beyond it is answered with none, and then signed_distance is
 //              the clearance along the first direction that proves it.
 // Hint         Passed on; it decides between normals whose gaps are within the threshold.
-// Convex       In double precision alone.
 #include <cstddef>
 #include <optional>
 #include <type_traits>
@@ -18,11 +17,9 @@
 
 using touchstone::Cylinder;
 using touchstone::Sphere;
-using touchstone::adapter::copy, touchstone::adapter::release;
+using touchstone::adapter::copy, touchstone::adapter::release, touchstone::adapter::supports_all;
 
 #ifdef TOUCHSTONE_SINGLE_PRECISION
-using touchstone::adapter::supports_primitives;
-constexpr auto supports = supports_primitives;
 using Scalar = float;
 using Pose = touchstone::FloatPose;
 using Vec3 = Eigen::Vector3f;
@@ -32,8 +29,6 @@ constexpr const char* settings =
     "Touchstone's own routines, poses and answers in single precision; points halfway between the "
     "surfaces";
 #else
-using touchstone::adapter::supports_all;
-constexpr auto supports = supports_all;
 using Scalar = double;
 using touchstone::Contact;
 using touchstone::Pose;
@@ -98,15 +93,14 @@ struct PreparedPair : ts_prepared {
   Other b;
 };
 
-#ifndef TOUCHSTONE_SINGLE_PRECISION
 touchstone::Convex to_convex(const ts_shape& shape) {
-  std::vector<Vec3> vertices;
+  using Vertex = touchstone::Vec3;
+  std::vector<Vertex> vertices;
   for (int i = 0; i < shape.vertex_count; ++i) {
-    vertices.emplace_back(Eigen::Map<const Vec3>(shape.vertices + std::ptrdiff_t{3} * i));
+    vertices.emplace_back(Eigen::Map<const Vertex>(shape.vertices + std::ptrdiff_t{3} * i));
   }
   return {std::move(vertices), touchstone::faces_of(shape), shape.rounding};
 }
-#endif
 
 ts_prepared* prepare(void*, const ts_shape* a, const ts_shape* b, double threshold, double) {
   const Cylinder cylinder(a->size[0], a->size[1], a->rounding);
@@ -129,9 +123,7 @@ ts_prepared* prepare(void*, const ts_shape* a, const ts_shape* b, double thresho
       prepared = new PreparedPair(cylinder, touchstone::Box({s[0], s[1], s[2]}, b->rounding));
       break;
     case TS_CONVEX:
-#ifndef TOUCHSTONE_SINGLE_PRECISION
       prepared = new PreparedPair(cylinder, to_convex(*b));
-#endif
       break;
   }
   if (!prepared) return nullptr;
@@ -159,8 +151,8 @@ void query(ts_prepared* prepared, const ts_pose* a, const ts_pose* b, const doub
   answer->status = TS_FAILED;  // a position beyond what float holds
 }
 
-const ts_candidate candidates[] = {{name, TOUCHSTONE_VERSION, settings, nullptr, nullptr, supports,
-                                    prepare, query, release, nullptr, nullptr}};
+const ts_candidate candidates[] = {{name, TOUCHSTONE_VERSION, settings, nullptr, nullptr,
+                                    supports_all, prepare, query, release, nullptr, nullptr}};
 const ts_plugin plugin = touchstone::adapter::plugin_of(candidates, roundings);
 
 }  // namespace
