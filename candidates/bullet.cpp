@@ -205,8 +205,8 @@ void touchstone_cast(int candidate, const ts_shape* a, const ts_shape* b, const 
   const auto shape_a = make_shape(*a, setting), shape_b = make_shape(*b, setting);
   btCollisionObject object;
   object.setCollisionShape(shape_b.get());
-  object.setWorldTransform(to_transform(*pose_b));
-  const btTransform from = to_transform(*pose_a);
+  object.setWorldTransform(touchstone::to_transform(*pose_b));
+  const btTransform from = touchstone::to_transform(*pose_a);
   const btTransform to(
       from.getRotation(),
       from.getOrigin() + btVector3(to_scalar(sweep[0]), to_scalar(sweep[1]), to_scalar(sweep[2])));

@@ -76,7 +76,9 @@ TEST(ConvexBody, ItsDirectionsAreThoseOfTheLeastEdges) {
   const ConvexTables& tables = c.tables();
   for (const ConvexTables::Edge& e : tables.edges) {
     EXPECT_NEAR(e.along.norm(), 1, 1e-15);
-    if (e.length == least) EXPECT_EQ(e.along.cwiseAbs(), Vec3(0, 1, 0));
+    if (e.length == least) {
+      EXPECT_EQ(e.along.cwiseAbs(), Vec3(0, 1, 0));
+    }
   }
   EXPECT_EQ(tables.face_normal(0), Vec3(0, 0, -1));
   EXPECT_EQ(tables.face_normal(1), Vec3(0, -1, 0));

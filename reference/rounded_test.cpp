@@ -53,7 +53,9 @@ TEST_P(Rounded, BodiesHaveTheTruesDistanceAndNormal) {
     EXPECT_LE(oracle::normal_regret(c, t, found.normal), promised(c));
     const CertifiedDistance certified = certified_distance(c);
     EXPECT_NEAR(certified.value, truth, certified.error_bound);
-    if (std::abs(truth) > promised(c)) EXPECT_EQ(overlaps(c), truth < 0);
+    if (std::abs(truth) > promised(c)) {
+      EXPECT_EQ(overlaps(c), truth < 0);
+    }
     const Contact beyond = contact(c, truth - smaller_size(c));
     EXPECT_TRUE(beyond.points().empty());
     EXPECT_LE(beyond.signed_distance, truth + promised(c));

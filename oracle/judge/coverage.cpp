@@ -66,7 +66,7 @@ double coverage(const PatchExtent& extent, const std::vector<Vec3>& points, doub
     directions = {wide, -wide};
   } else {
     // The shrunk patch lies within the hull if it lies inside each of the hull's sides.
-    const std::vector<Vec2> hull = oracle::convex_hull(flat);
+    const std::vector<Vec2> hull = oracle::plane_hull(flat);
     if (hull.size() < 3) return 0;
     for (std::size_t i = 0; i < hull.size(); ++i) {
       directions.push_back(across(hull[(i + 1) % hull.size()] - hull[i]).normalized());

@@ -34,7 +34,7 @@ ContactPatch hull_of_points(const ts_answer& answer) {
     const Vec3 from_mean = Vec3(answer.points[i].position) - mean;
     flat.emplace_back(from_mean.dot(plane.e1), from_mean.dot(plane.e2));
   }
-  return {plane, oracle::ConvexSet::polygon(oracle::convex_hull(flat))};
+  return {plane, oracle::ConvexSet::polygon(oracle::plane_hull(flat))};
 }
 
 double movement(const ContactPatch& from, const ContactPatch& to) {

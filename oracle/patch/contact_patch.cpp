@@ -187,7 +187,7 @@ ContactPatch contact_patch(const Configuration& c, const Vec3& n, double epsilon
     for (const Vec3& p : support_part(shape, pose, outward, epsilon, origin)) {
       seen.emplace_back(p.dot(plane.e1), p.dot(plane.e2));
     }
-    return convex_hull(seen);
+    return plane_hull(seen);
   };
   const std::vector<Vec2> part_a = seen_along_n(c.a, c.pose_a, -n);
   if (std::holds_alternative<Plane>(c.b)) return {plane, ConvexSet::polygon(part_a)};

@@ -195,7 +195,7 @@ Vec2 nearest_on_boundary(const std::vector<Vec2>& polygon, const Vec2& p) {
 
 }  // namespace
 
-std::vector<Vec2> convex_hull(const std::vector<Vec2>& points) {
+std::vector<Vec2> plane_hull(const std::vector<Vec2>& points) {
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
   std::vector<Kernel::Point_2> all, extreme;
   all.reserve(points.size());
@@ -215,7 +215,7 @@ std::vector<Vec2> intersection(const std::vector<Vec2>& p, const std::vector<Vec
   for (std::size_t i = 0; i < q.size() && !common.empty(); ++i) {
     common = left_of(common, q[i], q[(i + 1) % q.size()]);
   }
-  return common.empty() ? common : convex_hull(common);
+  return common.empty() ? common : plane_hull(common);
 }
 
 Vec2 halfway(const std::vector<Vec2>& p, const std::vector<Vec2>& q) {

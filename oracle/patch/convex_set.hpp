@@ -65,7 +65,7 @@ class ConvexSet {
 
 /// Vertices of the convex hull; points collinear with their neighbours are dropped exactly.
 /// Precondition: there is at least one point.
-std::vector<Vec2> convex_hull(const std::vector<Vec2>& points);
+std::vector<Vec2> plane_hull(const std::vector<Vec2>& points);
 
 /// Intersection of two convex polygons in double: empty if they miss each other, and possibly if
 /// the intersection is thinner than rounding.

@@ -77,12 +77,12 @@ TEST(ConvexSet, SegmentAndPoint) {
 }
 
 TEST(ConvexPolygon, HullDropsInnerPointsAndThoseOnItsSides) {
-  const auto hull = convex_hull(
+  const auto hull = plane_hull(
       std::vector<Vec2>{Vec2(0, 0), Vec2(1, 1), Vec2(2, 0), Vec2(1, 0), Vec2(2, 2), Vec2(0, 2)});
   EXPECT_EQ(hull.size(), 4u);
   EXPECT_EQ(ConvexSet::polygon(hull).area(), 4);
-  EXPECT_EQ(convex_hull(std::vector<Vec2>{Vec2(0, 0), Vec2(1, 1), Vec2(3, 3)}).size(), 2u);
-  EXPECT_EQ(convex_hull(std::vector<Vec2>{Vec2(1, 1), Vec2(1, 1)}).size(), 1u);
+  EXPECT_EQ(plane_hull(std::vector<Vec2>{Vec2(0, 0), Vec2(1, 1), Vec2(3, 3)}).size(), 2u);
+  EXPECT_EQ(plane_hull(std::vector<Vec2>{Vec2(1, 1), Vec2(1, 1)}).size(), 1u);
 }
 
 TEST(ConvexPolygon, IntersectionOfSquares) {

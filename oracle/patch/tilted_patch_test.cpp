@@ -163,7 +163,7 @@ TEST(TiltedPatch, PartsHaveTheSupportThatDualityGivesThem) {
         EXPECT_TRUE(is_round || p.dot(n) >= top - epsilon * (1 + 1e-9) - 1e-14);
         seen.emplace_back(p.dot(e1), p.dot(e2));
       }
-      const ConvexSet part = ConvexSet::polygon(convex_hull(seen));
+      const ConvexSet part = ConvexSet::polygon(plane_hull(seen));
       for (int k = 0; k < 8; ++k) {
         const Vec2 d(std::cos(k * pi / 8), std::sin(k * pi / 8));
         const Vec3 t = axes.transpose() * (d.x() * e1 + d.y() * e2);
@@ -194,7 +194,7 @@ TEST(TiltedPatch, OverlapIsWhatIsInBothParts) {
       for (const Vec3& x : support_part(shape, pose, outward, epsilon, Vec3::Zero())) {
         seen.emplace_back(x.dot(e1), x.dot(e2));
       }
-      return ConvexSet::polygon(convex_hull(seen));
+      return ConvexSet::polygon(plane_hull(seen));
     };
     const ConvexSet a = part(c.a, c.pose_a, -n), b = part(c.b, c.pose_b, n);
     int inside = 0;
