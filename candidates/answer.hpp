@@ -14,7 +14,7 @@ struct Answer : ts_answer {
   std::string reason;
   std::optional<double> model_distance;  ///< signed distance of a simplified model's shapes, metres
   /// By which radii the engine rounds A and B, metres, where that is not as they were given.
-  std::optional<std::array<double, 2>> roundings;
+  std::optional<std::array<double, 2>> roundings = {};
   bool was_asked = true;  ///< false: the candidate had been stopped (answers_until_stopped)
 };
 
