@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <iterator>
 #include <limits>
 #include <numbers>
 #include <random>
@@ -15,6 +16,7 @@
 #include "properties/files/bytes.hpp"
 #include "properties/identity.hpp"
 #include "properties/numbers.hpp"
+#include "reference/random_hulls_test.hpp"
 #include "reference/support.hpp"
 
 namespace touchstone::mutation {
@@ -36,6 +38,10 @@ RawConfiguration raw(const Configuration& configuration) {
   r.orientation_a = wxyz(n.orientation_a), r.orientation_b = wxyz(n.orientation_b);
   r.normal = numbers(n.normal);
   r.displacement = n.displacement;
+  if (const auto* hull = std::get_if<Convex>(&configuration.b)) {
+    for (const Vec3& v : hull->vertices()) r.vertices.push_back(numbers(v));
+    for (const Convex::Face& face : hull->faces()) r.faces.push_back(face.vertices);
+  }
   return r;
 }
 
@@ -66,10 +72,9 @@ void add_leaning_patch(Case& result, const Configuration& c, const Vec3& n) {
   add_patch(result, patch, n, 1);
 }
 
-Case make_case(const Identity& id) {
+Case make_case(const std::string& identity, const Configuration& c) {
   using oracle::ContactPatch;
-  const Configuration c = make_configuration(id);
-  Case result{to_string(id), raw(c), 0, {}, {}};
+  Case result{identity, raw(c), 0, {}, {}};
   const oracle::Truth truth = oracle::truth(c);
   const mpq_class middle = (truth.signed_distance.lo + truth.signed_distance.hi) / 2;
   const double high = middle.get_d();
@@ -87,6 +92,20 @@ Case make_case(const Identity& id) {
     }
   }
   return result;
+}
+
+Case make_case(const Identity& id) { return make_case(to_string(id), make_configuration(id)); }
+
+/// Hulls of all kinds in turn, every second configuration shallow or all but touching.
+Configuration with_any_hull(std::uint64_t index) {
+  touchstone::Random random(index);
+  const Configuration c = with_hull(hull_kinds[index % std::size(hull_kinds)], random);
+  if (random.toss()) return c;
+  return moved_to_depth(c, random.power_of_ten(-12, -1) * smaller_size(c));
+}
+std::string name_of_hull(std::uint64_t index) {
+  return "hull/" + std::string(hull_kind_names[index % std::size(hull_kinds)]) + '/' +
+         std::to_string(index);
 }
 
 std::FILE* opened(const std::string& file, const char* mode) {
@@ -118,6 +137,9 @@ void write_cases(const std::string& file, const std::string& net, std::uint64_t 
         write(f, make_case({pair, name, seed, i}));
       }
     }
+  }
+  for (std::uint64_t i = 0; net == "hostile" && i < count; ++i) {
+    write(f, make_case(name_of_hull(i), with_any_hull(i)));
   }
   if (std::fclose(f) != 0) throw std::runtime_error("cannot write " + file);
 }
@@ -293,7 +315,11 @@ void move_to_the_limit(RawConfiguration& c) {
 }  // namespace
 
 Case without_truth(int pair, std::uint64_t index) {
-  constexpr int cylinders = 3;
+  constexpr int cylinders = 3, hulls = 5;
+  if (pair == hulls) {
+    constexpr std::uint64_t others = 1 << 24;  // than those that are asked with their truths
+    return {name_of_hull(others + index), raw(with_any_hull(others + index)), 0, {}, {}};
+  }
   if (pair == cylinders && index % 4 == 0) {
     return {"rims/" + std::to_string(index), raw(MeetingRims(index).make()), 0, {}, {}};
   }

@@ -23,6 +23,12 @@ void members(Archive& a, KnownPatch& p) {
   a(p.normal, p.leans, p.outline);
 }
 
+template <class Archive>
+void members(Archive& a, RawConfiguration& r) {
+  a(r.pair, r.sizes, r.vertices, r.faces, r.position_a, r.position_b, r.orientation_a,
+    r.orientation_b, r.normal, r.displacement);
+}
+
 /// A configuration, and what the oracle knows of it.
 struct Case {
   std::string identity;
@@ -40,7 +46,8 @@ constexpr double leaning_threshold = 0.01;
 
 /// Caches configurations with their truths, which take far longer than answers and are the same for
 /// all mutants: `count` of each pair and pose class of the default report, or `count` of the
-/// hostile class of each pair (an eighth for pairs without a search).
+/// hostile class of each pair (an eighth for pairs without a search) and of hulls of all kinds
+/// (reference/random_hulls_test.hpp).
 void write_cases(const std::string& file, const std::string& net, std::uint64_t count);
 
 /// Reads them one by one: most faults are found in the first few.
@@ -64,7 +71,7 @@ constexpr std::uint64_t case_seed = 17;
 /// The configuration `index` of those that are asked without their truths: hostile ones that are
 /// not in the cache; every fourth has two normals that nearly tie, of two cylinders another fourth
 /// has rims that meet along a normal of any direction, and every 64th has lengths at the end of
-/// what a double holds.
+/// what a double holds. Of hulls they are any of all kinds.
 Case without_truth(int pair, std::uint64_t index);
 
 }  // namespace touchstone::mutation

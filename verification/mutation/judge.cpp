@@ -32,7 +32,8 @@ class Judge {
         smaller_(geometry_.smaller_size()),
         larger_(geometry_.larger_size()) {
     const Real apart = (geometry_.position_a - geometry_.position_b).cwiseAbs().maxCoeff();
-    tolerance_ = promised * std::max({larger_, apart, std::abs(geometry_.displacement)});
+    tolerance_ =
+        promised * std::max({larger_, apart, std::abs(geometry_.displacement), geometry_.far});
     // A point's own coordinates are rounded.
     const Real places =
         std::max(geometry_.position_a.norm(), geometry_.position_b.norm()) + larger_;
@@ -102,9 +103,9 @@ class Judge {
 
   void judge_vocabulary() {
     const RawFacts facts = routines_.facts(made_);
-    static const char* const pairs[] = {"cylinder-plane", "cylinder-sphere", "cylinder-capsule",
-                                        "cylinder-cylinder", "cylinder-box"};
-    static const char* const shapes[] = {"plane", "sphere", "capsule", "cylinder", "box"};
+    static const char* const pairs[] = {"cylinder-plane",    "cylinder-sphere", "cylinder-capsule",
+                                        "cylinder-cylinder", "cylinder-box",    "cylinder-convex"};
+    static const char* const shapes[] = {"plane", "sphere", "capsule", "cylinder", "box", "convex"};
     expect(facts.pair == case_.raw.pair &&
                std::strcmp(facts.pair_name, pairs[geometry_.pair]) == 0 &&
                std::strcmp(facts.shape_name, shapes[geometry_.pair]) == 0,

@@ -4,7 +4,11 @@
 #include <bitset>
 #include <cmath>
 #include <functional>
+#include <limits>
+#include <map>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <Eigen/Geometry>
 
@@ -23,7 +27,7 @@ using Matrix = Eigen::Matrix<Real, 3, 3>;
 
 inline Vector vector(const Numbers3& v) { return {v[0], v[1], v[2]}; }
 
-enum PairIndex { plane, sphere, capsule, cylinder, box };
+enum PairIndex { plane, sphere, capsule, cylinder, box, convex };
 
 /// The rotation of a quaternion (w, x, y, z) of any length.
 inline Matrix rotation(const Numbers4& q) {
@@ -52,6 +56,7 @@ class Geometry {
       plane_normal = axes_b * (n / length);
       displacement = raw.displacement / length;
     }
+    if (pair == convex) add_hull(raw);
   }
 
   /// max over the body of (x − centre)·n.
@@ -64,6 +69,12 @@ class Geometry {
         return size[2] + size[3] * std::abs(axes_b.col(2).dot(n));
       case cylinder:
         return reach_of_cylinder(axes_b, n, size[2], size[3]);
+      case convex: {
+        const Vector local = axes_b.transpose() * n;
+        Real most = -std::numeric_limits<Real>::infinity();
+        for (const Vector& v : vertices) most = std::max(most, v.dot(local));
+        return most;
+      }
       case box:
         break;
     }
@@ -95,6 +106,11 @@ class Geometry {
       }
       case cylinder:
         return outside_cylinder(local, size[2], size[3]);
+      case convex: {
+        Real most = -std::numeric_limits<Real>::infinity();
+        for (const Plane& p : planes) most = std::max(most, p.normal.dot(local) - p.offset);
+        return most;
+      }
       default:
         return (local.cwiseAbs() - Vector(size[2], size[3], size[4])).maxCoeff();
     }
@@ -116,6 +132,7 @@ class Geometry {
 
   Real smaller_size() const {
     Real result = std::min(size[0], size[1]);
+    if (pair == convex) return std::min(result, smallest_of_hull);
     const int last = pair == plane ? 1 : pair == box ? 4 : 2;  // a capsule's radius
     for (int i = 2; i <= last; ++i) result = std::min(result, size[i]);
     return pair == cylinder ? std::min(result, size[3]) : result;
@@ -123,12 +140,13 @@ class Geometry {
   Real larger_size() const {
     Real result = std::max(size[0], size[1]);
     if (pair == capsule) return std::max(result, size[2] + size[3]);
+    if (pair == convex) return std::max(result, half_extents.maxCoeff());
     for (int i = 2; pair != plane && i < 5; ++i) result = std::max(result, size[i]);
     return result;
   }
   /// All lengths together, as bounds of the error count them.
   Real lengths() const {
-    Real sum = (position_a - position_b).cwiseAbs().sum() + std::abs(displacement);
+    Real sum = (position_a - position_b).cwiseAbs().sum() + std::abs(displacement) + far;
     for (const Real x : size) sum += x;
     return sum;
   }
@@ -139,8 +157,52 @@ class Geometry {
   Matrix axes_a, axes_b;
   Vector plane_normal = Vector::Zero();
   Real displacement = 0;
+  /// Of a hull: the planes of its faces, and at each edge the one halfway between these.
+  struct Plane {
+    Vector normal;
+    Real offset;
+  };
+  std::vector<Vector> vertices;
+  std::vector<Plane> planes;
+  Vector half_extents = Vector::Zero();
+  Real smallest_of_hull = 0;
+  Real far = 0;  ///< the largest sum of a vertex's coordinates
 
  private:
+  void add_hull(const RawConfiguration& raw) {
+    for (const Numbers3& v : raw.vertices) vertices.push_back(vector(v));
+    if (vertices.empty()) return;  // refused
+    Vector low = vertices.front(), high = low;
+    for (const Vector& v : vertices) {
+      low = low.cwiseMin(v), high = high.cwiseMax(v);
+      far = std::max(far, v.cwiseAbs().sum());
+    }
+    half_extents = (high - low) / 2;
+    smallest_of_hull = half_extents.minCoeff();
+    std::map<std::pair<int, int>, Vector> beside;  // the normal left of an edge
+    for (const std::vector<int>& face : raw.faces) {
+      const auto at = [&](std::size_t i) -> const Vector& {
+        return vertices[static_cast<std::size_t>(face[i % face.size()])];
+      };
+      Vector area = Vector::Zero();
+      for (std::size_t i = 2; i < face.size(); ++i) {
+        area += (at(i - 1) - at(0)).cross(at(i) - at(0));
+      }
+      if (raw.faces.size() == 2) smallest_of_hull = std::sqrt(area.norm() / 2) / 2;
+      const Vector n = area.stableNormalized();
+      planes.push_back({n, n.dot(at(0))});
+      for (std::size_t i = 0; i < face.size(); ++i) {
+        const int from = face[i], to = face[(i + 1) % face.size()];
+        beside[{from, to}] = n;
+        const auto other = beside.find({to, from});
+        if (other == beside.end()) continue;
+        const Vector along = (at(i + 1) - at(i)).stableNormalized();
+        const Vector middle =
+            (n + other->second + along.cross(n - other->second)).stableNormalized();
+        planes.push_back({middle, middle.dot(at(i))});
+      }
+    }
+  }
   static Real reach_of_cylinder(const Matrix& axes, const Vector& n, Real radius, Real half) {
     const Vector axis = axes.col(2);
     return half * std::abs(axis.dot(n)) + radius * axis.cross(n).norm();

@@ -193,6 +193,25 @@ Findings judge_refusals(const Routines& routines) {
     refuse(raw, "orientation");
   }
   judge_refused_batches(valid, routines, findings);
+  RawConfiguration hull = valid;
+  hull.pair = convex;
+  hull.vertices = {{0, 0, 0}, {2, 0, 0}, {0, 3, 0}, {0, 0, 4}};
+  hull.faces = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}};
+  const auto refuse_hull = [&](auto change, const char* expected) {
+    RawConfiguration raw = hull;
+    change(raw);
+    refuse(raw, expected);
+  };
+  refuse_hull([](auto& raw) { raw.vertices.resize(2); }, "vertices");
+  refuse_hull([](auto& raw) { raw.vertices.resize(4097); }, "vertices");
+  refuse_hull([](auto& raw) { raw.vertices[1][2] = nan; }, "vertices[1][2]");
+  refuse_hull([](auto& raw) { raw.vertices.push_back({0.1, 0.1, 0.1}); }, "vertices[4]");
+  refuse_hull([](auto& raw) { raw.vertices[3][2] = -4; }, "faces[0]");  // inside out
+  refuse_hull([](auto& raw) { raw.faces[1].pop_back(); }, "faces[1]");
+  refuse_hull([](auto& raw) { raw.faces[1][2] = 4; }, "faces[1]");
+  refuse_hull([](auto& raw) { raw.faces[1][2] = -1; }, "faces[1]");
+  refuse_hull([](auto& raw) { raw.faces[1] = raw.faces[0]; }, "faces[1]");
+  refuse_hull([](auto& raw) { raw.faces.pop_back(); }, "faces[0]");  // open
   valid.pair = plane;
   for (const double bad : {nan, infinity}) {
     static const char* const normals[] = {"normal[0]", "normal[1]", "normal[2]"};

@@ -47,7 +47,7 @@ void print(const Findings& findings, const std::string& identity) {
 }
 
 /// Hostile configurations of each pair with a search that are asked without their truths.
-constexpr int first_pair_with_search = 2, pair_count = 5;
+constexpr int first_pair_with_search = 2, pair_count = 6;
 
 /// Calls visit(case, whether it has its truth) until that is false: the cases of the file, then
 /// `more` of each pair without truths.

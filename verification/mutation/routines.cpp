@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "reference/batch.hpp"
@@ -36,6 +37,11 @@ Shape body_b(const RawConfiguration& raw) {
       return Capsule(s[2], s[3]);
     case 3:
       return Cylinder(s[2], s[3]);
+    case 5: {
+      std::vector<Vec3> vertices;
+      for (const Numbers3& v : raw.vertices) vertices.push_back(vector(v));
+      return Convex(std::move(vertices), raw.faces);
+    }
     default:
       return Box({s[2], s[3], s[4]});
   }

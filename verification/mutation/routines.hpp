@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <vector>
 
 // What the probe and a library with planted faults say to each other: plain numbers, so that no
 // mutated shape, pose or configuration reaches the probe, its cases or its truths.
@@ -12,10 +13,13 @@ using Numbers3 = std::array<double, 3>;
 using Numbers4 = std::array<double, 4>;
 
 /// A configuration: `pair` counts as enum Pair does, `sizes` are those of A, then those of B;
-/// orientations are w, x, y, z; `normal` and `displacement` are a plane's.
+/// orientations are w, x, y, z; `normal` and `displacement` are a plane's, `vertices` and `faces` a
+/// hull's.
 struct RawConfiguration {
   double pair = 0;
   std::array<double, 5> sizes{};
+  std::vector<Numbers3> vertices{};
+  std::vector<std::vector<int>> faces{};
   Numbers3 position_a{}, position_b{};
   Numbers4 orientation_a{}, orientation_b{};
   Numbers3 normal{};
