@@ -421,6 +421,23 @@ TEST(HostileInput, Sdf) {
       [&](const std::string& text, std::uint64_t) { simulate_robot(file.with(text)); });
 }
 
+TEST(HostileInput, Meshes) {
+  const std::filesystem::path models = std::filesystem::path(TOUCHSTONE_SCENES) / "models";
+  const Written robot(".urdf");
+  for (const auto& [ending, package] :
+       {std::pair{".stl", "arm_description"}, {".dae", "arm_description"}, {".obj", "cart"}}) {
+    const Written mesh(ending);
+    expect_answer_or_refusal(
+        ending, 0.8, files_of(models / package / "meshes", ending),
+        [&](const std::string& text, std::uint64_t) {
+          simulate_robot(
+              robot.with("<robot name='r'><link name='l'><collision><geometry><mesh "
+                         "filename='" +
+                         mesh.with(text).string() + "'/></geometry></collision></link></robot>"));
+        });
+  }
+}
+
 TEST(HostileInput, Mjcf) {
   const Written file(".xml");
   expect_answer_or_refusal(
