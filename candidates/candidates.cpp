@@ -27,8 +27,9 @@ constexpr struct {
 
 /// Candidates that are part of a report only if they are named, like engines from npm, and nothing
 /// is loaded before: our routines in single precision, engines whose cylinders are Touchstone's
-/// (reference/engines), and floors of triangles (floor.hpp); and peers, engines that Debian does not have, which are built where CMake
-/// finds them, so that a default report is the same everywhere.
+/// (reference/engines), and floors of triangles (floor.hpp); and peers, engines that Debian does
+/// not have, which are built where CMake finds them, so that a default report is the same
+/// everywhere.
 constexpr struct {
   const char* name;
   const char* plugin;
