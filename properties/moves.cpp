@@ -26,7 +26,8 @@ struct Scaled {
   Shape operator()(const Convex& s) const {
     std::vector<Vec3> vertices = s.vertices();
     for (Vec3& v : vertices) v *= factor;
-    return oracle::convex_hull(vertices, factor * s.rounding());  // rounding may have made other faces
+    return oracle::convex_hull(vertices,
+                               factor * s.rounding());  // rounding may have made other faces
   }
   Shape operator()(const Plane& s) const { return Plane(s.normal(), factor * s.displacement()); }
 };

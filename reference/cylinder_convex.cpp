@@ -284,8 +284,8 @@ bool may_cross_side(const InHull& p, const ConvexTables::Edge& e, double best) {
   if (std::min(left, right) > rounding || std::max(left, right) < -rounding) return false;
   const Vec3 across = e.along.cross(p.u);  // not of unit length: no root is needed
   // Of an axis nearly along the edge what rounding leaves is much of both sides.
-  const double distance = std::copysign(1, across.dot(e.middle)) * across.dot(p.d - e.from) +
-                          proof_part * p.lengths;
+  const double distance =
+      std::copysign(1, across.dot(e.middle)) * across.dot(p.d - e.from) + proof_part * p.lengths;
   const double least = best + p.r;
   if (least <= 0) return true;
   return distance > 0 && distance * distance > least * least * across.squaredNorm() * less_a_hair;

@@ -21,8 +21,8 @@ struct OdeQuaternion {
 /// fixed.
 dBodyID make_ode_body(dWorldID world, const Assembly& assembly);
 
-/// Hulls and floors as meshes of triangles, for ODE's convex geoms end the process where two of them
-/// touch. Must outlive their geoms.
+/// Hulls and floors as meshes of triangles, for ODE's convex geoms end the process where two of
+/// them touch. Must outlive their geoms.
 using OdeMeshes = std::vector<std::unique_ptr<OdeMesh>>;
 
 /// Geometry at a pose in the frame of `moving`, or in the world if that is null. A plane is made in
