@@ -8,13 +8,13 @@
 #include <fmt/ranges.h>
 #include <map>
 #include <memory>
-#include <variant>
 
 #include "candidates/candidates.hpp"
 #include "candidates/npm_engines.hpp"
 #include "properties/named.hpp"
 #include "properties/pose_class.hpp"
 #include "reference/invalid_input.hpp"
+#include "reports/idioms/axes.hpp"
 #include "reports/idioms/cases.hpp"
 #include "reports/replay.hpp"
 #include "reports/reproducer/fill_template.hpp"
@@ -146,54 +146,6 @@ Habit habit_of(const Program& program, const Tags& tags) {
     return std::find(tags.begin(), tags.end(), tag) != tags.end();
   };
   return {has("x") ? 'x' : has("y") ? 'y' : 'z', program.title == "MuJoCo"};
-}
-
-/// The world with its axes renamed, so that what lay along z lies along `axis`: all numbers stay.
-Vec3 renamed(const Vec3& v, char axis) {
-  return axis == 'y' ? Vec3(v.y(), v.z(), v.x()) : axis == 'x' ? Vec3(v.z(), v.x(), v.y()) : v;
-}
-
-Pose renamed(const Pose& pose, char axis) {
-  const Eigen::Quaterniond& q = pose.orientation();
-  const Vec3 u = renamed(Vec3(q.x(), q.y(), q.z()), axis);
-  return {renamed(pose.position(), axis), Eigen::Quaterniond(q.w(), u.x(), u.y(), u.z())};
-}
-
-/// As the engine has it: cylinders and capsules along that axis of their frames.
-Configuration renamed(const Configuration& c, char axis) {
-  Configuration result{c.a, renamed(c.pose_a, axis), c.b, renamed(c.pose_b, axis)};
-  if (const auto* const box = std::get_if<Box>(&c.b))
-    result.b = Box(renamed(box->half_extents(), axis));
-  if (const auto* const plane = std::get_if<Plane>(&c.b)) {
-    result.b = Plane(renamed(plane->normal(), axis), plane->displacement());
-  }
-  return result;
-}
-
-/// The answer of a candidate, whose cylinders lie along z, to the renamed configuration, with the
-/// world's axes as they were.
-Answer answer_in_axis(CandidateProcess& process, const Configuration& c, char axis) {
-  if (axis == 'z') return process.answer(c);
-  Configuration asked = renamed(c, axis);
-  const Eigen::Quaterniond z_to_axis = axis == 'y' ? Eigen::Quaterniond(M_SQRT1_2, -M_SQRT1_2, 0, 0)
-                                                   : Eigen::Quaterniond(M_SQRT1_2, 0, M_SQRT1_2, 0);
-  const auto turn = [&](Pose& pose) {
-    pose = Pose(pose.position(), pose.orientation() * z_to_axis);
-  };
-  turn(asked.pose_a);
-  const Pair pair = pair_of(c);
-  if (pair == Pair::cylinder || pair == Pair::capsule) turn(asked.pose_b);
-  Answer answer = process.answer(asked);
-  const auto back = [axis](double(&v)[3]) {
-    const Vec3 u = renamed(Vec3(v[0], v[1], v[2]), axis == 'y' ? 'x' : 'y');
-    for (int i = 0; i < 3; ++i) v[i] = u[i];
-  };
-  back(answer.normal);
-  for (int i = 0; i < answer.point_count; ++i) {
-    back(answer.points[i].position);
-    back(answer.points[i].normal);
-  }
-  return answer;
 }
 
 /// What stands for numbers in the part that asks, where they are a case's.
