@@ -56,9 +56,7 @@ int run_replay(const ReplayArguments& options, bool emits) {
   }
   std::optional<CastExamination> cast;
   if (given.sweep) {
-    std::vector<std::string> names;
-    for (const auto& process : candidates) names.push_back(process.candidate().name);
-    cast = examine_cast(given.configuration, *given.sweep, names, bar);
+    cast = examine_cast(given.configuration, *given.sweep, options.candidates.get(), bar);
   }
   if (options.json) {
     print(replay_json(shown, cast));

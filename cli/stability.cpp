@@ -50,7 +50,7 @@ struct StabilityArguments {
                            "leaves no choice of --pair, --class or --group");
       }
       s.base = given_configuration(input);
-      refuse_sweep(s.base, "stability");
+      refuse_sweep(*s.base, "stability");
     }
     return s;
   }

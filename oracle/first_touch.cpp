@@ -42,17 +42,10 @@ mpq_class quotient_below(const Float& a, const Float& b, arf_rnd_t rounding = AR
 
 class Translation {
  public:
-  Translation(const Configuration& given, const Vec3& sweep) {
-    const RoundedConfiguration rounded = rounded_configuration(given);
-    // The sweep as a position, which is rounded alike.
-    const RoundedConfiguration moved =
-        rounded_configuration({given.a, Pose(sweep), given.b, Pose()});
-    sweep_ = moved.configuration.pose_a.position();
-    start_ = exact_difference(rounded.configuration);
-    error_ = rounded.error + moved.error;
-    in_units_ = in_units(start_, sweep_);
-    direction_ = in_frame_of_a(start_, sweep_);
-  }
+  /// The sweep is rounded as a position is.
+  Translation(const Configuration& given, const Vec3& sweep)
+      : Translation(rounded_configuration(given),
+                    rounded_configuration({given.a, Pose(sweep), given.b, Pose()})) {}
 
   /// A time until which the bodies are apart as balls about both are; none if for ever. From far
   /// away that is much nearer, and costs next to nothing.
@@ -110,6 +103,13 @@ class Translation {
  private:
   static constexpr long ball_bits = 128;
 
+  Translation(const RoundedConfiguration& start, const RoundedConfiguration& sweep)
+      : start_(exact_difference(start.configuration)),
+        sweep_(sweep.configuration.pose_a.position()),
+        error_(start.error + sweep.error),
+        in_units_(in_units(start_, sweep_)),
+        direction_(in_frame_of_a(start_, sweep_)) {}
+
   BallVector sweep_balls() const {
     return {Ball(in_units_.x), Ball(in_units_.y), Ball(in_units_.z)};
   }
@@ -161,6 +161,8 @@ class Translation {
   IntegerVector direction_;      ///< of the sweep, in A's frame
 };
 
+FirstTouch no_touch() { return {FirstTouch::Status::never, {1, 1}, {}}; }
+
 FirstTouch touch_of_translation(const Configuration& c, const Vec3& sweep, double width) {
   using Status = FirstTouch::Status;
   const Translation translation(c, sweep);
@@ -169,17 +171,16 @@ FirstTouch touch_of_translation(const Configuration& c, const Vec3& sweep, doubl
     return {Status::from_start, {0, 0}, truth(c)};
   }
   if (moment.kind == Moment::Kind::unknown) return {Status::undecided, {0, 0}, {}};
-  const FirstTouch never{Status::never, {1, 1}, {}};
-  if (!moment.until) return never;
+  if (!moment.until) return no_touch();
   mpq_class until = *moment.until;  // they are apart before it
   if (!translation.is_over_plane()) {
     const std::optional<mpq_class> as_balls = translation.apart_as_balls();
-    if (!as_balls) return never;
+    if (!as_balls) return no_touch();
     until = std::max(until, *as_balls);
   }
   const mpq_class step = mpq_class(width) / 2, end(1);
   for (int i = 0; i < max_steps; ++i) {
-    if (until > end) return never;
+    if (until > end) return no_touch();
     const mpq_class latest = std::min(end, mpq_class(until + step));
     const mpq_class t = simplest_between(until, latest);
     moment = translation.at(t);
@@ -190,8 +191,9 @@ FirstTouch touch_of_translation(const Configuration& c, const Vec3& sweep, doubl
       return {Status::touch, {until, t}, truth_at(c, sweep, t, truth_width, tie)};
     }
     if (moment.kind == Moment::Kind::unknown) return {Status::undecided, {until, latest}, {}};
-    if (moment.from && *moment.from > until) return {Status::undecided, {until, *moment.from}, {}};
-    if (!moment.until) return never;
+    // At that very moment they might touch.
+    if (moment.from && *moment.from >= until) return {Status::undecided, {until, *moment.from}, {}};
+    if (!moment.until) return no_touch();
     until = *moment.until;
   }
   return {Status::undecided, {until, end}, {}};

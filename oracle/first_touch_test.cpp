@@ -173,7 +173,9 @@ TEST_P(FirstTouchOf, RandomSweepsIsProvenFromBothSides) {
   const std::uint64_t count = tried_of_each(60);
   int touches = 0, nevers = 0, undecided = 0;
   for (std::uint64_t i = 0; i < count; ++i) {
-    const auto [c, sweep] = random_sweep(GetParam(), random);
+    const GivenSweep given = random_sweep(GetParam(), random);
+    const Configuration& c = given.c;
+    const Vec3& sweep = given.sweep;
     const FirstTouch found = first_touch(c, Sweep(sweep));
     SCOPED_TRACE(testing::Message() << "sweep " << i << ": " << name_of(found.status) << " at "
                                     << found.fraction.midpoint());

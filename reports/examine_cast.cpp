@@ -1,6 +1,5 @@
 #include "reports/examine_cast.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -29,8 +28,10 @@ json score_json(const CastScore& score) {
           {"normal_regret", or_null(score.normal_regret)}};
 }
 
-/// The answer in a few words: "touch", "never", "from-start".
-std::string answer_word(const ScoredCast& scored) { return status_name(scored.answer.status); }
+/// "touch", "never", "from-start", or "failed".
+std::string answer_word(const CastAnswer& answer) {
+  return answer.cast ? status_name(answer.cast->status) : "failed";
+}
 
 std::string few_digits(const std::optional<double>& x) {
   return x && std::isfinite(*x) ? fmt::format("{:.3g}", *x) : "-";
@@ -39,7 +40,9 @@ std::string few_digits(const std::optional<double>& x) {
 /// What is proven, in a sentence.
 std::string truth_sentence(const CastExamination& cast) {
   using Status = oracle::FirstTouch::Status;
-  const auto [low, high] = decimals(cast.truth.fraction);
+  constexpr int digits = 20;
+  const std::string low = oracle::decimal_below(cast.truth.fraction.lo, digits);
+  const std::string high = oracle::decimal_above(cast.truth.fraction.hi, digits);
   switch (cast.truth.status) {
     case Status::touch:
       return fmt::format("A touches B first when it has gone {} of its sweep", high);
@@ -68,13 +71,16 @@ std::string normal_sentence(const CastExamination& cast) {
 }  // namespace
 
 CastExamination examine_cast(const Configuration& c, const Sweep& sweep,
-                             const std::vector<std::string>& candidates, const Bar& bar) {
+                             const std::vector<const Candidate*>& candidates, const Bar& bar) {
   CastExamination result{c, sweep, oracle::first_touch(c, sweep), {}};
-  const bool is_asked =
-      std::find(candidates.begin(), candidates.end(), "reference") != candidates.end();
-  if (!is_asked || sweep.turns()) return result;
-  const Cast answer = cast(c, sweep.translation());
-  result.answers.push_back({"reference", answer, score_cast(c, sweep, result.truth, answer, bar)});
+  if (sweep.turns()) return result;
+  for (const Candidate* candidate : candidates) {
+    const std::optional<CastAnswer> answer = ask_cast(*candidate, c, sweep.translation());
+    if (!answer) continue;
+    const CastScore score = answer->cast ? score_cast(c, sweep, result.truth, *answer->cast, bar)
+                                         : CastScore{CastOutcome::failed, {}, {}};
+    result.answers.push_back({candidate->name, *answer, score});
+  }
   return result;
 }
 
@@ -85,12 +91,16 @@ json to_json(const CastExamination& cast, Order order) {
     truth["there"] = to_json(at_the_touch(cast, order), *cast.truth.there, order);
   }
   json answers = json::object();
+  const double sign = order == Order::swapped ? -1 : 1;
   for (const auto& [candidate, answer, score] : cast.answers) {
-    const double sign = order == Order::swapped ? -1 : 1;
-    answers[candidate] = {{"status", status_name(answer.status)},
-                          {"fraction", answer.fraction},
-                          {"normal", to_json(Vec3(sign * answer.normal))},
-                          {"score", score_json(score)}};
+    json& written = answers[candidate];
+    written = {{"status", answer_word(answer)}, {"score", score_json(score)}};
+    if (answer.cast) {
+      written["fraction"] = answer.cast->fraction;
+      written["normal"] = to_json(Vec3(sign * answer.cast->normal));
+    } else {
+      written["reason"] = answer.failure;
+    }
   }
   return {{"truth", std::move(truth)}, {"answers", std::move(answers)}};
 }
@@ -108,13 +118,14 @@ std::string cast_text(const CastExamination& cast, const Terminal& terminal) {
     text += table.headings();
     for (const ScoredCast& scored : cast.answers) {
       const bool is_right = scored.score.outcome == CastOutcome::agree;
-      text += table.row(shown_name(scored.candidate),
-                        {{outcome_name(scored.score.outcome), !is_right},
-                         {answer_word(scored)},
-                         {fmt::format("{:.4g}", scored.answer.fraction)},
-                         {few_digits(scored.score.distance)},
-                         {few_digits(scored.score.normal_regret)}},
-                        is_right);
+      text += table.row(
+          shown_name(scored.candidate),
+          {{outcome_name(scored.score.outcome), !is_right},
+           {answer_word(scored.answer)},
+           {scored.answer.cast ? fmt::format("{:.4g}", scored.answer.cast->fraction) : "-"},
+           {few_digits(scored.score.distance)},
+           {few_digits(scored.score.normal_regret)}},
+          is_right);
     }
     text += Legend(table, terminal)
                 .of("left", "signed distance there, relative to the smaller size, as is regret")

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "candidates/host/ask_cast.hpp"
 #include "oracle/judge/cast_score.hpp"
 #include "properties/files/answer_json.hpp"
 #include "properties/identity.hpp"
@@ -16,7 +18,7 @@ namespace touchstone {
 /// A candidate's answer to a cast.
 struct ScoredCast {
   std::string candidate;
-  Cast answer;
+  CastAnswer answer;
   CastScore score;
 };
 
@@ -28,9 +30,9 @@ struct CastExamination {
   std::vector<ScoredCast> answers;
 };
 
-/// Of the candidates named, our own routine has casts, of bodies that do not turn.
+/// Asks those of the candidates that have casts; none of them has any of a body that turns.
 CastExamination examine_cast(const Configuration& configuration, const Sweep& sweep,
-                             const std::vector<std::string>& candidates, const Bar& bar);
+                             const std::vector<const Candidate*>& candidates, const Bar& bar);
 
 /// {"truth": {"status", "fraction": [lo, hi], "there": as `truth` of solve, of a touch and from the
 /// start}, "answers": {candidate: {"status", "fraction", "normal", "score": {…}}}}.

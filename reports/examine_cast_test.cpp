@@ -7,9 +7,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "candidates/candidates.hpp"
 #include "properties/files/configuration_json.hpp"
-#include "reports/make_report.hpp"
-#include "reports/small_report_test.hpp"
 #include "reports/solve.hpp"
 
 namespace touchstone {
@@ -28,7 +27,7 @@ json solved_line(const json& line, bool csv = false) {
   std::istringstream in(line.dump());
   std::ostringstream out;
   solve(in, out,
-        {.candidates = find_candidates({"reference", "bullet"}),
+        {.candidates = find_candidates({"reference", "bullet", "ode"}),
          .width = 1e-15,
          .bar = {},
          .csv = csv});
@@ -45,7 +44,19 @@ TEST(SolvedCast, HasItsFractionAndTheTruthThere) {
   EXPECT_EQ(answer["status"], "touch");
   EXPECT_NEAR(answer["fraction"].get<double>(), 1.0 / 3, 1e-15);
   EXPECT_EQ(answer["score"]["outcome"], "agree");
-  EXPECT_FALSE(cast["answers"].contains("bullet")) << "which is asked for no casts";
+  EXPECT_EQ(cast["answers"]["bullet"]["score"]["outcome"], "agree");
+  EXPECT_FALSE(cast["answers"].contains("ode")) << "which has no casts";
+}
+
+TEST(SolvedCast, BulletsRoundedRimIsLateOnASphere) {
+  const json cast = solved_line(json::parse(
+      R"({"a":{"shape":"cylinder","radius":0.5,"half_length":0.25},
+          "pose_a":{"position":[-5.5,0,0.75]},"b":{"shape":"sphere","radius":1},"sweep":[8,0,0]})"))
+      ["cast"];
+  EXPECT_EQ(cast["answers"]["reference"]["score"]["outcome"], "agree");
+  const json& bullet = cast["answers"]["bullet"]["score"];
+  EXPECT_EQ(bullet["outcome"], "late");
+  EXPECT_LT(bullet["distance"].get<double>(), -0.01);
 }
 
 TEST(SolvedCast, WithoutASweepThereIsNone) {
@@ -89,8 +100,8 @@ TEST(SolvedCast, HasNoColumnsInCsv) {
 
 TEST(CastText, SaysWhenAndWhatWasAnswered) {
   const GivenConfiguration given = cast_from_json(let_down());
-  const std::string text =
-      cast_text(examine_cast(given.configuration, *given.sweep, {"reference"}, Bar()));
+  const std::string text = cast_text(
+      examine_cast(given.configuration, *given.sweep, find_candidates({"reference"}), Bar()));
   EXPECT_THAT(text, HasSubstr("A touches B first when it has gone 0.3333"));
   EXPECT_THAT(text, HasSubstr("normal (0, 0, 1)"));
   EXPECT_THAT(text, testing::ContainsRegex("\n +agree +touch +0.3333 "));

@@ -27,7 +27,10 @@ using nlohmann::json;
 std::string replay_json(const Examination& examination,
                         const std::optional<CastExamination>& cast) {
   json result = to_json(examination);
-  if (cast) result["cast"] = to_json(*cast);
+  if (cast) {
+    result["cast"] = to_json(*cast);
+    result["configuration"] = to_json(cast->configuration, cast->sweep);
+  }
   return result.dump() + '\n';
 }
 

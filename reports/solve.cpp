@@ -133,9 +133,8 @@ SolvedLine solved(const json& line, const SolveOptions& options,
         to_json(a, score(c, truth, a, options.bar), order);
   }
   if (given.sweep) {
-    std::vector<std::string> names;
-    for (const Candidate* candidate : options.candidates) names.push_back(candidate->name);
-    result["cast"] = touchstone::to_json(examine_cast(c, *given.sweep, names, options.bar), order);
+    result["cast"] =
+        touchstone::to_json(examine_cast(c, *given.sweep, options.candidates, options.bar), order);
   }
   return {result, truth.signed_distance};
 }

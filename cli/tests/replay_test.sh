@@ -80,7 +80,9 @@ echo '{"id":"c","a":{"shape":"cylinder","radius":0.5,"half_length":1},"pose_a":{
   >"$folder/cast.jsonl"
 expect 0 'cast: A touches B first when it has gone 0.3333' replay "$folder/cast.jsonl"
 also '^ *agree  *touch  *0.3333' '"sweep":\[0.0,0.0,-9.0\]'
-expect 0 '"cast":{"answers":{"reference":{"fraction":0.3333' replay "$folder/cast.jsonl" --json
+expect 0 '"cast":{"answers":{"reference":{"fraction":0.3333' replay "$folder/cast.jsonl" --json --candidates reference
+echo "$printed" >"$folder/saved_cast.json"
+expect 0 'cast: A touches B first when it has gone 0.3333' replay "$folder/saved_cast.json" --candidates reference
 for way in --certify "--emit bullet" "--html $folder/cast.html"; do
   # shellcheck disable=SC2086
   expect 2 "^error: sweep is \[0.0,0.0,-9.0\]: must be left out: ${way%% *} knows no casts" replay "$folder/cast.jsonl" $way

@@ -70,7 +70,8 @@ Configuration swept(const Configuration& c, const Sweep& sweep, double t) {
 }
 
 const char* outcome_name(CastOutcome outcome) {
-  constexpr std::array names = {"agree", "late", "early", "missed", "made-up", "wrong-normal"};
+  constexpr std::array names = {"agree",   "late",         "early", "missed",
+                                "made-up", "wrong-normal", "failed"};
   return names[static_cast<std::size_t>(outcome)];
 }
 const char* status_name(CastStatus status) {

@@ -13,14 +13,15 @@ Configuration swept(const Configuration& configuration, const Sweep& sweep, doub
 
 /// Judgement of one answered cast, named after the symptom.
 enum class CastOutcome {
-  agree,        ///< within the bar
-  late,         ///< passes through: the bodies overlap before the answered touch, or there
-  early,        ///< stops short: they are apart there
-  missed,       ///< no touch where A would overlap B
-  made_up,      ///< a touch where there is none, and the bodies are apart there
-  wrong_normal  ///< the touch is right, its normal is not
+  agree,         ///< within the bar
+  late,          ///< passes through: the bodies overlap before the answered touch, or there
+  early,         ///< stops short: they are apart there
+  missed,        ///< no touch where A would overlap B
+  made_up,       ///< a touch where there is none, and the bodies are apart there
+  wrong_normal,  ///< the touch is right, its normal is not
+  failed         ///< the candidate gave no answer
 };
-/// "agree", "late", "early", "missed", "made-up", "wrong-normal".
+/// "agree", "late", "early", "missed", "made-up", "wrong-normal", "failed".
 const char* outcome_name(CastOutcome outcome);
 /// "touch", "never", "from-start".
 const char* status_name(CastStatus status);
