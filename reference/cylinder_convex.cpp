@@ -141,10 +141,11 @@ Vec3 point_facing(const InHull& p, const Vec3& n, const Vec3& x) {
   Vec3 outward = n - along * p.u;
   const double sine = outward.norm();
   if (sine >= few_digits) return centre - p.r / sine * outward;
-  if (sine > flat) {  // on the rim or side, whatever rounding leaves along the axis
+  if (sine > flat) {  // on the rim or side, unless it is only what rounding leaves along the axis
     outward /= sine;
     outward -= outward.dot(p.u) * p.u;
-    return centre - p.r / outward.norm() * outward;
+    const double length = outward.norm();
+    if (length > 0.5) return centre - p.r / length * outward;
   }
   const Vec3 arm = x - p.d, beside = arm - arm.dot(p.u) * p.u;
   return centre + std::min(1.0, p.r / beside.norm()) * beside;

@@ -116,8 +116,7 @@ TEST_P(Hostile, NumbersAreAnsweredAlikeByBothOraclesAndSoon) {
 #endif
 }
 
-// The patch of a hull whose coordinates are extreme is not held here.
-INSTANTIATE_TEST_SUITE_P(, Hostile, testing::ValuesIn(pairs_of_sizes), name_of_other);
+INSTANTIATE_TEST_SUITE_P(, Hostile, testing::ValuesIn(all_pairs), name_of_other);
 
 std::uint64_t count_per_class() {
   const char* text = std::getenv("TOUCHSTONE_COUNT");

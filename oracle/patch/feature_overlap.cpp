@@ -87,10 +87,15 @@ struct DiscBeside {
              const RationalVector& axis)
       : length2(square(half)) {
     const RationalVector w = disc.centre - middle, left = cross(axis, half);
-    const mpq_class beside = dot(w, left);
+    const mpq_class beside = dot(w, left), left2 = square(left);
+    // Lengths that lie 1e300 apart can leave a segment that does not lie across the axis: a point.
+    if (left2 == 0) {
+      side = 0, off2 = 0, chord2 = -1;
+      return;
+    }
     along = dot(w, half) / length2;
     side = sgn(beside);
-    off2 = square(beside) / square(left);
+    off2 = square(beside) / left2;
     chord2 = square(disc.radius) - off2;
   }
 
