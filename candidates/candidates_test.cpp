@@ -86,9 +86,9 @@ TEST(FindCandidate, ListsANameOnceThatACommandHasTaken) {
     find_candidate("no-such-candidate");
     FAIL();
   } catch (const InvalidInput& e) {
-    const auto first = e.remedy().find("havok");
+    const auto first = e.remedy().find(" havok,");
     EXPECT_NE(first, std::string::npos);
-    EXPECT_EQ(e.remedy().find("havok", first + 1), std::string::npos) << e.remedy();
+    EXPECT_EQ(e.remedy().find(" havok,", first + 1), std::string::npos) << e.remedy();
   }
 }
 

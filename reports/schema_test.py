@@ -29,6 +29,7 @@ docs = source / "docs"
 # Members that may be absent.
 OPTIONAL = {"reason", "audit", "given", "stability", "experiments", "engines", "amplification", "maps", "sequences",
             "digest", "id", "cast", "there"}
+OPTIONAL_OF = {("score", "model_error"), ("score", "solver_error")}
 # Objects whose members are names or numbers.
 MAPS = {"answers", "outcomes", "points", "details", "letters"}
 
@@ -111,7 +112,8 @@ class Schema(unittest.TestCase):
         for place in places(short):
             holder, key = place[:-1], place[-1]
             faults = []
-            if isinstance(key, str) and not (holder and holder[-1] in MAPS) and key not in OPTIONAL:
+            if isinstance(key, str) and not (holder and holder[-1] in MAPS) and not (
+                    key in OPTIONAL or place[-2:] in OPTIONAL_OF):
                 faults.append(lambda parent: parent.pop(key))
             faults.append(lambda parent: parent.__setitem__(key, {"planted": []}))
             if isinstance(at(short, place), dict):

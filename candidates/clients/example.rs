@@ -8,6 +8,7 @@ use std::ffi::{c_char, c_double, c_int, c_void};
 
 #[repr(C)] #[derive(Clone, Copy)] pub struct Shape { // 0 cylinder, 1 plane, 2 sphere; the others are of convex bodies
     kind: c_int, size: [c_double; 4], vertices: *const c_double, faces: *const c_int, vertex_count: c_int, face_count: c_int,
+    rounding: c_double,
 }
 #[repr(C)] pub struct Pose { position: [c_double; 3], orientation: [c_double; 4] } // unit quaternion w, x, y, z
 #[repr(C)] #[derive(Clone, Copy)] pub struct Point { position: [c_double; 3], normal: [c_double; 3], depth: c_double }
@@ -22,7 +23,8 @@ pub struct Prepared { a: Shape, b: Shape, threshold: f64 }
     release: extern "C" fn(Option<Box<Prepared>>),
     model_distance: Option<extern "C" fn(&Prepared, &Pose, &Pose) -> c_double>, context: *mut c_void,
 }
-#[repr(C)] pub struct Plugin { interface_version: c_int, count: c_int, candidates: *const Candidate, after_fork: Option<extern "C" fn()>, unforked: c_int }
+#[repr(C)] pub struct Plugin { interface_version: c_int, count: c_int, candidates: *const Candidate, after_fork: Option<extern "C" fn()>, unforked: c_int,
+    roundings: Option<extern "C" fn(&Prepared, &mut c_double, &mut c_double)> }
 unsafe impl Sync for Candidate {}
 unsafe impl Sync for Plugin {}
 
@@ -75,5 +77,5 @@ static CANDIDATE: Candidate = Candidate {
     name: b"example-rust\0".as_ptr().cast(), version: b"1.0\0".as_ptr().cast(), settings: b"closed form, double precision; points halfway between the bodies\0".as_ptr().cast(),
     models: std::ptr::null(), parameter: std::ptr::null(), supports, prepare, query, release, model_distance: None, context: std::ptr::null_mut(),
 };
-static PLUGIN: Plugin = Plugin { interface_version: 5, count: 1, candidates: &CANDIDATE, after_fork: None, unforked: 0 };
+static PLUGIN: Plugin = Plugin { interface_version: 5, count: 1, candidates: &CANDIDATE, after_fork: None, unforked: 0, roundings: None };
 #[no_mangle] pub extern "C" fn touchstone_plugin() -> *const Plugin { &PLUGIN }

@@ -108,7 +108,7 @@ huge='{"a": {"shape": "cylinder", "radius": 1e300, "half_length": 1}, "b": {"sha
 expect 2 '--emit.*"jolt": .*no float holds 1e+300' replay <(echo "$huge") --emit jolt --language c++
 expect 2 '--emit.*"jolt": .*no float holds 1e-300' replay <(echo "${huge/1e300/1e-300}") --emit jolt --language c++
 expect 2 '--emit.*jolt-margin:-1.*from 0 to 1' replay $rim --emit jolt-margin:-1
-expect 2 '--emit.*no-such-engine.*must be one of bullet, .*ode, fcl, .*libccd, .*mujoco' replay $rim --emit no-such-engine
+expect 2 '--emit.*no-such-engine.*must be one of bullet, .*ode, .*fcl, .*libccd, .*mujoco' replay $rim --emit no-such-engine
 expect 2 '--emit.*libccd.*half-space' replay cylinder-plane/general-deep/1/2 --emit libccd
 expect 2 '--emit.*havok.*half-space' replay cylinder-plane/general-deep/1/2 --emit havok
 # A program knows convex bodies, or is not written.
@@ -118,7 +118,7 @@ for engine in mujoco jolt havok; do
   expect 2 "^error: --emit is \"$engine\": must be one of bullet, .*fcl, .*libccd-mpr, or another candidate of a plug-in, that knows convex bodies" \
     replay <(echo "$tip") --emit $engine
 done
-expect 2 '--emit.*"reference-float".*routine for cylinder-convex' replay <(echo "$tip") --emit reference-float
+expect 2 '--emit.*"bullet.touchstone".*routine for cylinder-convex' replay <(echo "$tip") --emit bullet+touchstone
 expect 2 '--emit.*bullet:3.*takes no number' replay $rim --emit bullet:3
 expect 2 '--language.*must be c++ for bullet' replay $rim --emit bullet --language python
 expect 2 '--language.*must be javascript or c++ for jolt' replay $rim --emit jolt --language c

@@ -31,7 +31,7 @@ for id in 1 two; do
   echo
 done >"$folder/poses.jsonl"
 own=(report --configurations "$folder/poses.jsonl" --candidates reference,bullet)
-expect 0 '^bullet: shallow in 2 of 2 given poses of cylinder-box$' "${own[@]}" --out "$folder/own"
+expect 0 '^bullet: shallow in 2 of 2 given poses of cylinder-box' "${own[@]}" --out "$folder/own"
 also '^2 configurations, ' "^  ./touchstone replay $folder/poses.jsonl --id \(1\|two\)$" '^candidate *given'
 expect 0 'bullet' replay "$folder/poses.jsonl" --id two
 expect 0 '^No change[.]$' compare "$folder/own/report.json" "$folder/own/report.json"

@@ -506,7 +506,7 @@ STUB = ast.parse(pathlib.Path(touchstone.__file__).with_suffix(".pyi").read_text
 class Arguments(unittest.TestCase):
     """What is wrong is named, with what would be right, whatever is called."""
 
-    good = {"radius": 1, "half_length": 1, "normal": (0, 0, 1), "displacement": 0,
+    good = {"radius": 1, "rounding": 0, "half_length": 1, "normal": (0, 0, 1), "displacement": 0,
             "half_extents": (1, 1, 1), "vertices": TRIANGLE.vertices, "position": (0, 0, 0), "orientation": (1, 0, 0, 0),
             "depth": 0, "signed_distance": 0, "points": (), "a": CAN, "pose_a": Pose(), "b": FLOOR,
             "pose_b": Pose(), "threshold": 0, "sweep": (0, 0, 1), "spin": (0, 0, 0), "width": 1e-3, "pair": "cylinder-plane",

@@ -67,23 +67,27 @@ void require_name(const std::string& name, const char* field) {
   }
 }
 
-/// Normals of a person's file whose body a is our body B.
+/// Of a person's file whose body a is our body B: normals, and what is said of each body.
 void reverse(GivenAnswer& answer) {
   answer.normal = -answer.normal;
+  if (answer.roundings) std::swap((*answer.roundings)[0], (*answer.roundings)[1]);
   for (ts_point& p : answer.points) {
     for (double& x : p.normal) x = -x;
   }
 }
 
 GivenAnswer answer_of(const json& line, const std::string& id) {
-  refuse_others(line, {"id", "status", "signed_distance", "normal", "points"}, "");
+  refuse_others(line, {"id", "status", "signed_distance", "normal", "points", "roundings"}, "");
   const ts_answer a = answer_from_json(line, "");
   for (int i = 0; i < a.point_count; ++i) {
     refuse_others(line["points"][static_cast<std::size_t>(i)], {"position", "depth", "normal"},
                   fmt::format("points[{}]", i));
   }
-  return {
-      id, 0, {}, a.status, a.signed_distance, Vec3(a.normal), {a.points, a.points + a.point_count}};
+  GivenAnswer answer{
+      id, 0, {}, a.status, a.signed_distance, Vec3(a.normal), {a.points, a.points + a.point_count},
+      {}};
+  if (line.contains("roundings")) answer.roundings = numbers<2>(line["roundings"], "roundings");
+  return answer;
 }
 
 /// Takes the lines of a file of answers one by one.

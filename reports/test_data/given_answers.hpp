@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <iosfwd>
 #include <map>
@@ -23,6 +24,8 @@ struct GivenAnswer {
   double signed_distance;
   Vec3 normal;
   std::vector<ts_point> points;
+  /// Radii by which the routine rounds the bodies, where it says so.
+  std::optional<std::array<double, 2>> roundings;
 
   Answer answer() const;
 };

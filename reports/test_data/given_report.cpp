@@ -17,6 +17,7 @@ Answer GivenAnswer::answer() const {
   for (int i = 0; i < 3; ++i) result.normal[i] = normal[i];
   result.point_count = static_cast<int>(points.size());
   std::copy(points.begin(), points.end(), result.points);
+  result.roundings = roundings;
   return result;
 }
 

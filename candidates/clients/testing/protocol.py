@@ -77,7 +77,11 @@ class Child:
                   + pack_shape(a) + pack_shape(b) for handle, a, b, threshold, parameter in entries]
         vertices = b"".join(struct.pack("<3d", *vertex) for _, _, b, _, _ in entries
                             for vertex in b.get("vertices", ()))
-        return [flag == 1 for (flag,) in struct.iter_unpack("<I", self.ask_frame(PREPARE, packed, rest=vertices))]
+        if self.hello.get("roundings"):
+            vertices += b"".join(struct.pack("<2d", a.get("rounding", 0), b.get("rounding", 0))
+                                 for _, a, b, _, _ in entries)
+        flags = self.ask_frame(PREPARE, packed, rest=vertices)[:4 * len(entries)]
+        return [flag == 1 for (flag,) in struct.iter_unpack("<I", flags)]
 
     def query(self, questions: list[tuple[int, dict, dict, tuple | None]]) -> list[Answer]:
         """Questions: handle, poses, hint."""
