@@ -79,7 +79,8 @@ Worst worst_errors(Pair pair, std::uint64_t per_class, double most, FamilyOf fam
   for (const auto& name : classes) {
     const bool is_hostile = name == "hostile";
     Errors& of_family = worst[family_of(pair, name)];
-    for (std::uint64_t i = 0; i < per_class * (is_hostile ? hostile_factor : 1); ++i) {
+    for (std::uint64_t i = 0;
+         i < (is_hostile ? hostile_factor * per_class : of_each_class(pair, per_class)); ++i) {
       const Identity id{pair, name, 7, i};
       const std::optional<Errors> errors = errors_of(make_configuration(id), is_hostile);
       if (!errors) continue;
@@ -298,7 +299,7 @@ TEST(AccuracyOfTheHostile, IsWithinRoundingOfTheLargerSize) {
 // No power of a length may overflow or vanish, of any length that a double holds.
 TEST_P(Accuracy, IsTheSameAtEveryScale) {
   for (const auto& name : pose_classes(GetParam())) {
-    for (std::uint64_t i = 0; i < 3; ++i) {
+    for (std::uint64_t i = 0; i < of_each_class(GetParam(), 3); ++i) {
       const Identity id{GetParam(), name, 7, i};
       const Configuration c = make_configuration(id);
       const SignedDistance answer = signed_distance(c);

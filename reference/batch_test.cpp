@@ -18,6 +18,7 @@
 #include "properties/identity.hpp"
 #include "reference/contact_of.hpp"
 #include "reference/invalid_input.hpp"
+#include "reference/random_bodies_test.hpp"
 #include "reference/random_hulls_test.hpp"
 #include "reference/single_precision.hpp"
 
@@ -91,7 +92,7 @@ TEST_P(Batch, HasTheBitsOfSinglePairsInEveryPoseClass) {
   std::vector<std::string> classes = pose_classes(GetParam());
   classes.push_back("hostile");
   for (const std::string& name : classes) {
-    const std::uint64_t count = name == "hostile" ? 1000 : 10;
+    const std::uint64_t count = name == "hostile" ? 1000 : of_each_class(GetParam(), 10);
     for (std::uint64_t i = 0; i < count; ++i) {
       const Identity id{GetParam(), name, 5, i};
       SCOPED_TRACE(to_string(id));

@@ -66,8 +66,9 @@ TEST_P(Certified, BoundsHoldAndAreRounding) {
   for (const std::string& name : classes) {
     SCOPED_TRACE(name);
     const bool hostile = name == "hostile";
-    const Proven all =
-        expect_bounds_hold(tried_of_each(25) * (hostile ? 200 : 1), [&](std::uint64_t i) {
+    const Proven all = expect_bounds_hold(
+        hostile ? 200 * tried_of_each(25) : of_each_class(GetParam(), tried_of_each(25)),
+        [&](std::uint64_t i) {
           return make_configuration({GetParam(), name, 13, i});
         });
     EXPECT_GE(all.share, hostile ? min_proven_part_of_hostile : 1);

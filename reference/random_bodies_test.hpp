@@ -20,6 +20,11 @@ inline std::uint64_t tried_of_each(std::uint64_t by_default) {
   return text ? std::strtoull(text, nullptr, 10) : by_default;
 }
 
+/// Of each pose class of a pair: hulls have six times as many classes.
+inline std::uint64_t of_each_class(Pair pair, std::uint64_t of_others) {
+  return pair == Pair::convex ? (of_others + 4) / 5 : of_others;
+}
+
 /// Names a test after the shape that meets the cylinder.
 inline std::string name_of_other(const testing::TestParamInfo<Pair>& pair) {
   return std::string(pair_name(pair.param)).substr(std::string("cylinder-").size());

@@ -397,7 +397,7 @@ class Report(PageTest):
         first.send_keys(Keys.ARROW_DOWN, Keys.END)
         cell = focused.active_element
         self.assertEqual(cell, self.all("#matrix tbody tr:first-child td")[-1])
-        self.assertIn("reference, cylinder–box", self.find("#tooltip").text)
+        self.assertIn("reference, cylinder–convex", self.find("#tooltip").text)
         name = self.all("#matrix tbody tr")[1].text.split()[0]
         cell.send_keys(Keys.ARROW_DOWN, Keys.ARROW_LEFT, Keys.ENTER)
         # The keyboard goes along to the worst classes and cases.
@@ -514,7 +514,8 @@ class Report(PageTest):
     def test_a_cell_of_the_matrix_leads_to_its_worst_classes_and_cases(self):
         self.choose("#matrix-quantity", "agreement")
         heads = [h.text for h in self.all("#matrix thead th")]
-        self.assertEqual(heads, ["candidate", "all", "plane", "sphere", "capsule", "cylinder", "box"])
+        self.assertEqual(heads, ["candidate", "all", "plane", "sphere", "capsule", "cylinder", "box",
+                                 "convex"])
         row = next(r for r in self.all("#matrix tbody tr") if r.text.split()[0] == "bullet")
         cell = row.find_elements(By.TAG_NAME, "td")[heads.index("box") - 1]
         self.assertRegex(cell.text, r"^\d+\.\d%\n\d+(\.\d)? [nµ]s$")
@@ -964,7 +965,7 @@ class OtherPages(PageTest):
                          "--part", "amplification,sequences", "--out", folder)  # maps take longer
         self.open(folder / "stability.html")
         lines = len(self.all(".chart .mark-line path"))
-        self.assertEqual(lines, 2 * 5)
+        self.assertEqual(lines, 2 * 6)
         self.find(".toggle").click()
         self.assertEqual(len(self.all(".chart .mark-line path")), lines // 2)
         self.assertEqual(len(self.all("#stability tbody tr th[scope=row]")), 3)
@@ -1010,7 +1011,7 @@ class OtherPages(PageTest):
         self.run_program("choose", scene.with_name("rover.urdf"), "--candidates", "capsule",
                          "--duration", "0.1", "--disturbances", "1", "--out", folder)
         self.open(folder / "choose.html")
-        self.assertIn("mesh", self.driver.find_element(By.ID, "ignored").get_attribute("textContent"))
+        self.assertIn("transmission", self.driver.find_element(By.ID, "ignored").get_attribute("textContent"))
 
     def test_choice_of_many_needs(self):
         folder = Path(self.folder.name) / "choose-needs"
