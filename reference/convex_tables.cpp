@@ -52,14 +52,26 @@ double room_for_differences(const std::vector<Vec3>& points) {
 
 /// The outward unit normal of a plane polygon.
 Vec3 normal_of(const std::vector<Vec3>& vertices, const Convex::Face& face, double part) {
-  const std::vector<int>& corners = face.vertices;
+  std::vector<int> corners = face.vertices;
+  // Seen from the shortest edge: from afar the product of nearly equal arms would lose it.
+  std::size_t shortest = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vec3 edge =
+        part * vertices[corners[(i + 1) % corners.size()]] - part * vertices[corners[i]];
+    const double length = edge.cwiseAbs().maxCoeff();
+    if (length < least) least = length, shortest = i;
+  }
+  std::rotate(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(shortest),
+              corners.end());
   const Vec3& first = vertices[corners.front()];
   Vec3 longest = Vec3::Zero();
   for (const int i : corners) {
     const Vec3 arm = part * vertices[i] - part * first;
     if (arm.cwiseAbs().maxCoeff() > longest.cwiseAbs().maxCoeff()) longest = arm;
   }
-  const int exponent = exponent_to_one(longest);
+  constexpr int room = 500;  // half of what doubles have: no product of a sliver's arms underflows
+  const int exponent = exponent_to_one(longest) + room;
   const auto arm = [&](int corner) {
     TwofoldVector result;
     for (int k = 0; k < 3; ++k) {

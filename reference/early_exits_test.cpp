@@ -142,5 +142,27 @@ TEST(EarlyExits, AreRightOfRimsAcrossAnEdge) {
   }
 }
 
+// Corners a unit in the last place apart, or the least double, leave faces so thin that their
+// normals were lost: a plane that did not pass through its face proved edges closed, up to 0.06 too
+// deep.
+TEST(EarlyExits, AreRightOfHullsWithTheThinnestFaces) {
+  for (std::uint64_t i = 0; i < 50 * count(); ++i) {
+    Random random(i);
+    const auto coordinate = [&] {
+      const double x = std::round(random.uniform(-2.5, 2.5)) / 2;
+      if (random.uniform(0, 1) < 0.7) return x;
+      return std::nextafter(x, random.toss() ? 2 : -2);
+    };
+    std::vector<Vec3> points;
+    for (int k = 0; k < 8; ++k) points.emplace_back(coordinate(), coordinate(), coordinate());
+    points.emplace_back(points[0].x(), std::nextafter(points[0].y(), 2), points[0].z());
+    const Cylinder a(random.power_of_ten(-2, 0), random.power_of_ten(-2, 0));
+    const Vec3 centre(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+    expect_no_short_cut_is_wrong({a, Pose(centre, turn_between(Vec3::UnitZ(), random.direction())),
+                                  oracle::convex_hull(points), Pose()},
+                                 i);
+  }
+}
+
 }  // namespace
 }  // namespace touchstone
