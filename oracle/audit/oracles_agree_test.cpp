@@ -112,7 +112,7 @@ TEST_P(Hostile, NumbersAreAnsweredAlikeByBothOraclesAndSoon) {
   }
   RecordProperty("longest_ms", std::to_string(longest));
 #if defined(NDEBUG) && !defined(__SANITIZE_ADDRESS__)
-  EXPECT_LE(longest, 50);
+  EXPECT_LE(longest, GetParam() == Pair::convex ? 500 : 50);  // of up to 32 corners
 #endif
 }
 

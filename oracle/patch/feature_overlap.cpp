@@ -15,10 +15,16 @@ mpq_class square(const RationalVector& v) { return dot(v, v); }
 double root(const mpq_class& q) { return std::sqrt(q.get_d()); }
 mpq_class clamped(const mpq_class& q) { return q > 1 ? mpq_class(1) : q < -1 ? mpq_class(-1) : q; }
 
+/// Where lengths lie 1e300 apart, corners of a face may be on one line and what is left of a
+/// direction zero; then it counts as a point.
+mpq_class quotient(const mpq_class& a, const mpq_class& b) {
+  return b == 0 ? mpq_class(0) : mpq_class(a / b);
+}
+
 /// Coordinate of `v` along a direction of any length. (Products with that may overflow as doubles.)
 double coordinate(const RationalVector& v, const RationalVector& direction) {
   const mpq_class product = dot(v, direction);
-  return sgn(product) * root(square(product) / square(direction));
+  return sgn(product) * root(quotient(square(product), square(direction)));
 }
 
 /// Exact sign of p − √q; q >= 0.
@@ -69,7 +75,7 @@ ConvexSet overlap_of_discs(const mpq_class& r, const mpq_class& s, const mpq_cla
 
 Placement discs(const SupportFeature& first, const SupportFeature& second, const Vec3& n) {
   const RationalVector w = second.centre - first.centre;
-  const RationalVector across = w - dot(w, first.u) / square(first.u) * first.u;
+  const RationalVector across = w - quotient(dot(w, first.u), square(first.u)) * first.u;
   const Vec3 direction = rounded(across);
   return {overlap_of_discs(first.radius, second.radius, square(across)), rounded(first.centre),
           direction.isZero(0) ? n.unitOrthogonal() : direction};
@@ -88,15 +94,10 @@ struct DiscBeside {
       : length2(square(half)) {
     const RationalVector w = disc.centre - middle, left = cross(axis, half);
     const mpq_class beside = dot(w, left), left2 = square(left);
-    // Lengths that lie 1e300 apart can leave a segment that does not lie across the axis: a point.
-    if (left2 == 0) {
-      side = 0, off2 = 0, chord2 = -1;
-      return;
-    }
-    along = dot(w, half) / length2;
+    along = quotient(dot(w, half), length2);
     side = sgn(beside);
-    off2 = square(beside) / left2;
-    chord2 = square(disc.radius) - off2;
+    off2 = quotient(square(beside), left2);
+    chord2 = left2 == 0 ? mpq_class(-1) : mpq_class(square(disc.radius) - off2);
   }
 
   /// Do circle and segment share more than a point?
@@ -207,8 +208,8 @@ Placement segment_and_polygon(const SupportFeature& segment, const SupportFeatur
 std::optional<Placement> crossing(const SupportFeature& first, const SupportFeature& second,
                                   const RationalVector& perpendicular, const Vec3& n) {
   const RationalVector w = second.centre - first.centre;
-  const mpq_class s = dot(cross(w, second.u), perpendicular) / square(perpendicular);
-  const mpq_class t = dot(cross(w, first.u), perpendicular) / square(perpendicular);
+  const mpq_class s = quotient(dot(cross(w, second.u), perpendicular), square(perpendicular));
+  const mpq_class t = quotient(dot(cross(w, first.u), perpendicular), square(perpendicular));
   if (abs(s) > 1 || abs(t) > 1) return std::nullopt;
   return at_point(rounded(first.centre + s * first.u), n);
 }
@@ -217,8 +218,8 @@ std::optional<Placement> segments(const SupportFeature& first, const SupportFeat
                                   const Vec3& n) {
   const RationalVector perpendicular = cross(first.u, second.u);
   if (!is_zero(perpendicular)) return crossing(first, second, perpendicular, n);
-  const mpq_class middle = dot(second.centre - first.centre, first.u) / square(first.u);
-  const mpq_class half = abs(dot(second.u, first.u)) / square(first.u);
+  const mpq_class middle = quotient(dot(second.centre - first.centre, first.u), square(first.u));
+  const mpq_class half = quotient(abs(dot(second.u, first.u)), square(first.u));
   return along(first, std::max<mpq_class>(-1, middle - half),
                std::min<mpq_class>(1, middle + half));
 }
