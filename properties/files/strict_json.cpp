@@ -12,6 +12,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "candidates/readable.hpp"
 #include "properties/files/disk.hpp"
 #include "properties/files/given_text.hpp"
 #include "reference/invalid_input.hpp"
@@ -23,6 +24,12 @@ using nlohmann::json;
 std::string shown(const json& value) {
   constexpr std::size_t max_shown = 60;
   return printable(value.dump(-1, ' ', false, json::error_handler_t::replace), max_shown);
+}
+
+void check_printable(const std::string& field, const std::string& name) {
+  if (readable(name) == name) return;
+  throw InvalidInput(field, shown(name),
+                     "must be without characters that are not seen, as controls");
 }
 
 double number(const json& value, const std::string& field) {

@@ -57,6 +57,9 @@ class JsonLines {
 
 /// The value as the person wrote it, cut where it is long.
 std::string shown(const nlohmann::json& value);
+/// Throws InvalidInput with this field unless a terminal shows the name as it is: valid UTF-8
+/// without characters that are not seen (candidates/readable.hpp).
+void check_printable(const std::string& field, const std::string& name);
 
 /// A JSON number, or a string with a decimal or hexadecimal float.
 double number(const nlohmann::json& value, const std::string& field);

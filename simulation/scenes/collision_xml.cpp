@@ -12,7 +12,7 @@
 #include "properties/files/disk.hpp"
 #include "properties/files/given_text.hpp"
 #include "reference/invalid_input.hpp"
-#include "simulation/scenes/robot_file.hpp"
+#include "simulation/scenes/robot_readers.hpp"
 
 namespace touchstone {
 namespace {

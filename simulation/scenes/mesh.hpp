@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "simulation/scenes/robot_file.hpp"
+#include "simulation/scenes/robot_readers.hpp"
 
 // Meshes of robots and worlds. What meets a cylinder is their convex hull, as Bullet and MuJoCo
 // take them by default.

@@ -330,12 +330,6 @@ Camera camera_for(const Scene& scene) {
   return {centre + 2.6 * reach * Vec3(0.45, -0.8, 0.4), centre};
 }
 
-void check_printable(const std::string& field, const std::string& name) {
-  if (readable(name) == name) return;
-  throw InvalidInput(field, shown(name),
-                     "must be without characters that are not seen, as controls");
-}
-
 namespace {
 
 /// What is meant is told by the name's ending.

@@ -40,10 +40,6 @@ std::string schema_with_needs(const std::string& schema);
 /// A camera that sees all bodies but the planes, from the front right above.
 Camera camera_for(const Scene& scene);
 
-/// Throws InvalidInput with this field unless a terminal shows the name as it is: valid UTF-8
-/// without characters that are not seen (candidates/readable.hpp).
-void check_printable(const std::string& field, const std::string& name);
-
 /// Writes a run for POV-Ray 3.7: scene.pov (camera, light), frame-00001.inc, … (the bodies at
 /// intervals of `every` seconds), and scene.ini; `povray scene.ini` draws all frames. Returns the
 /// number of frames. Throws InvalidInput (field "--povray") if a file cannot be written.
