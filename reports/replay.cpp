@@ -60,6 +60,7 @@ std::string replay_page(const Examination& examination, const std::string& descr
   data["hexadecimal"] = to_hex_json(examination.configuration);
   data["exact"] = to_exact_json(examination.configuration);
   data["description"] = description;
+  data["faces"] = faces_json(examination.configuration.b);
   std::map<std::string, std::string> runs;
   for (const ScoredAnswer& answer : examination.answers) {
     runs[answer.candidate] = runs_as(answer.candidate);

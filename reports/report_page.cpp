@@ -35,7 +35,7 @@ const json& shown_parts() {
     "trends": {"bins": {"median": 2, "max": 2, "*": true}, "*": true},
     "worst": {
       "id": true, "pair": true, "group": true, "class": true, "candidate": true, "outcome": true,
-      "severity": 10, "replay": true, "configuration": true,
+      "severity": 10, "replay": true, "configuration": true, "faces": true,
       "truth": {
         "signed_distance": true, "normals": 10, "ties": true,
         "patch": {"kind": true, "centroid": 10, "outline": 10}
@@ -74,13 +74,16 @@ json cut_to(const json& value, const json& parts) {
   return result;
 }
 
-/// The first few worst cases of each pair × group × candidate.
-json first_worst(const json& worst) {
+/// The first few worst cases of each pair × group × candidate, with the faces of their hulls.
+json first_worst(const std::vector<WorstCase>& worst) {
   constexpr int max_shown = 2;
   std::map<std::array<std::string, 3>, int> seen;
   json cases = json::array();
-  for (const json& w : worst) {
-    if (++seen[{w["pair"], w["group"], w["candidate"]}] <= max_shown) cases.push_back(w);
+  for (const WorstCase& w : worst) {
+    if (++seen[{w.pair, w.group, w.candidate}] > max_shown) continue;
+    cases.push_back(to_json(w));
+    const json faces = faces_json(w.examination.configuration.b);
+    if (!faces.empty()) cases.back()["faces"] = faces;
   }
   return cases;
 }
@@ -97,7 +100,7 @@ json findings_json(const Report& report) {
 
 std::string report_page(const Report& report) {
   json data = to_json(report);
-  data["worst"] = first_worst(data["worst"]);
+  data["worst"] = first_worst(report.worst);
   data["findings"] = findings_json(report);
   for (std::size_t i = 0; i < report.results.size(); ++i) {
     const std::optional<QueryTime>& time = report.results[i].time;

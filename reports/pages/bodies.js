@@ -116,7 +116,7 @@ function boxMesh({half_extents: h}) {
   }
   return {faces, normals, edges: faces.map(f => [...f, f[0]]), stripe: faces.map(() => false)};
 }
-// A polyhedron whose faces are lists of indices of its vertices; nothing where these are not given.
+// A polyhedron whose faces are lists of indices of its vertices, or a polygon with one on either side.
 function convexMesh({vertices, faces: indices = []}) {
   const faces = indices.map(f => f.map(i => vertices[i]));
   const normals = faces.map(([a, b, c]) => unit(cross(add(b, a, -1), add(c, a, -1))));
@@ -164,16 +164,22 @@ function chord(body, p, d) {
     const lo = Math.max(...parts.map(c => c[0])), hi = Math.min(...parts.map(c => c[1]));
     return lo <= hi ? [lo, hi] : null;
   };
+  const below = (n, at) => {  // n·(p + y·d − at) <= 0
+    const slope = dot(n, d), room = dot(n, add(at, p, -1));
+    if (slope === 0) return room >= 0 ? [-Infinity, Infinity] : null;
+    return slope > 0 ? [-Infinity, room / slope] : [room / slope, Infinity];
+  };
   const side = h => both(round([o[0], o[1], 0], [e[0], e[1], 0], s.radius), slab(o[2], e[2], h));
   switch (s.shape) {
     case 'cylinder': return side(s.half_length);
     case 'sphere': return round(o, e, s.radius);
     case 'box': return both(...[0, 1, 2].map(i => slab(o[i], e[i], s.half_extents[i])));
-    case 'plane': {
-      const norm = length(s.normal), slope = dot(s.normal, e) / norm;
-      const room = (s.displacement - dot(s.normal, o)) / norm;
-      if (slope === 0) return room >= 0 ? [-Infinity, Infinity] : null;
-      return slope > 0 ? [-Infinity, room / slope] : [room / slope, Infinity];
+    case 'plane': return below(body.outward[0], body.faces[0][0]);
+    case 'convex': {
+      if (body.faces.length > 2) return both(...body.faces.map((f, i) => below(body.outward[i], f[0])));
+      const [front] = body.faces, [n] = body.outward, y = dot(n, add(front[0], p, -1)) / dot(n, d);
+      const walls = front.map((corner, i) => below(cross(add(front[(i + 1) % front.length], corner, -1), n), corner));
+      return both(Number.isFinite(y) ? [y, y] : null, ...walls);
     }
     default: {  // a capsule: its side and its two ends
       const parts = [side(s.half_length), ...[-1, 1].map(end =>
@@ -185,6 +191,7 @@ function chord(body, p, d) {
 
 // The support function of a bounded body about its centre: how far the body extends along n.
 function extentAlong({shape: s, axes}, n) {
+  if (s.shape === 'convex') return Math.max(...s.vertices.map(v => dot(combine(axes, v), n)));
   if (s.shape === 'box') return s.half_extents.reduce((sum, h, i) => sum + h * Math.abs(dot(axes[i], n)), 0);
   const along = Math.abs(dot(axes[2], n)), h = (s.half_length || 0) * along;
   return h + s.radius * (s.shape === 'cylinder' ? Math.sqrt(Math.max(0, 1 - along * along)) : 1);
@@ -193,13 +200,13 @@ function extentAlong({shape: s, axes}, n) {
 // with the largest gap among those of the bodies' features: enough to tell which body hides the other.
 function planeBetween(a, b) {
   const d = add(a.centre, b.centre, -1), radial = [a, b].map(({axes}) => add(d, axes[2], -dot(d, axes[2])));
-  const directions = [d, ...a.axes, ...b.axes, ...radial, ...a.axes.flatMap(e => b.axes.map(f => cross(e, f)))];
+  const directions = [d, ...a.axes, ...b.axes, ...radial, ...[a, b].flatMap(({shape, outward}) => shape.shape === 'convex' ? outward : []), ...a.axes.flatMap(e => b.axes.map(f => cross(e, f)))];
   let best = {gap: -Infinity};
   for (const direction of directions) {
     const size = length(direction);
     if (!(size > 1e-9)) continue;
     const n = times(direction, (dot(direction, d) < 0 ? -1 : 1) / size);
-    const lowA = dot(a.centre, n) - extentAlong(a, n), highB = dot(b.centre, n) + extentAlong(b, n);
+    const lowA = dot(a.centre, n) - extentAlong(a, times(n, -1)), highB = dot(b.centre, n) + extentAlong(b, n);
     if (lowA - highB > best.gap) best = {gap: lowA - highB, normal: n, at: (lowA + highB) / 2};
   }
   return best;

@@ -812,7 +812,8 @@ class OtherPages(PageTest):
         before = self.picture("#view")
         self.find("#view-contact").click()
         self.assertNotEqual(self.picture("#view"), before)
-        for name in ("plane/general", "sphere/general", "capsule/general", "cylinder/general"):
+        for name in ("plane/general", "sphere/general", "capsule/general", "cylinder/general", "convex/general",
+                     "convex/general+triangle"):
             self.run_program("replay", f"cylinder-{name}/1/0", "--candidates", "reference", "--html", page)
             self.open(page)
             self.unfold()

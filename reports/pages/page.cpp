@@ -140,14 +140,20 @@ Mark mark_of(std::string_view candidate) {
   return {other, sum % symbols};
 }
 
+nlohmann::json faces_json(const Shape& shape) {
+  nlohmann::json faces = nlohmann::json::array();
+  if (const auto* hull = std::get_if<Convex>(&shape)) {
+    for (const Convex::Face& face : hull->faces()) faces.push_back(face.vertices);
+  }
+  return faces;
+}
+
 nlohmann::json bodies_json(const Scene& scene) {
   nlohmann::json bodies = nlohmann::json::array();
   for (const Body& b : scene.bodies) {
     const auto& q = b.pose.orientation();
     nlohmann::json shape = to_json(b.shape);
-    if (const auto* hull = std::get_if<Convex>(&b.shape)) {
-      for (const Convex::Face& face : hull->faces()) shape["faces"].push_back(face.vertices);
-    }
+    if (std::holds_alternative<Convex>(b.shape)) shape["faces"] = faces_json(b.shape);
     bodies.push_back({{"name", b.name},
                       {"shape", std::move(shape)},
                       {"fixed", b.fixed},

@@ -7,6 +7,8 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "reference/shape.hpp"
+
 namespace touchstone {
 
 struct Scene;
@@ -28,6 +30,8 @@ Mark mark_of(std::string_view candidate);
 
 // Motions as pages read them (pages/motion.js):
 
+/// The faces of a convex body, each a list of indices of its vertices; of another shape none.
+nlohmann::json faces_json(const Shape& shape);
 /// Names, shapes and initial poses of a scene's bodies.
 nlohmann::json bodies_json(const Scene& scene);
 

@@ -89,7 +89,7 @@ let scene, shows;
 
 // Moves the origin to the contact of the true normal `index`.
 function aim(index) {
-  scene = makeScene(given, truth, index);
+  scene = makeScene(given, truth, index, data.faces);
   aimView(view, scene.normal, scene.across);
   slice.across = scene.across;
   shows = {contact: [], smaller: [smallerBody(scene)], whole: scene.bodies};
@@ -190,7 +190,7 @@ function controls() {
 
 byId('title').textContent = data.id;
 byId('description').textContent = data.description;
-byId('name-b').textContent = `${given.b.shape} B`;
+byId('name-b').textContent = nameOfB(given.b);
 const distance = Number(truth.signed_distance[0]), failing = answers.filter(([, a]) => isFailure(a.score.outcome));
 byId('headline').textContent = `${distance < 0 ? `${exponent(-distance)} m deep` : `${exponent(distance)} m apart`}; ` +
     (failing.length ? `${failing.length} of ${answers.length} candidates disagree: ` + outcomes.map(o => [o, failing.filter(([, a]) => a.score.outcome === o)])

@@ -88,7 +88,7 @@ function caseView(w) {
   const draw = () => {
     inSight.disconnect();
     undrawn = undrawn.filter(other => other !== draw);
-    const scene = makeScene(w.configuration, w.truth, 0), view = makeView(canvas);
+    const scene = makeScene(w.configuration, w.truth, 0, w.faces), view = makeView(canvas);
     scene.marks = marksOf(scene, w.truth, Object.entries(w.answers));
     aimView(view, scene.normal, scene.across);
     const thin = closeUp(view, scene), views = [['Whole bodies', () => fitView(view, mainBodies(scene))],
@@ -113,7 +113,7 @@ function caseView(w) {
   undrawn.push(draw);
   const other = element('button', {type: 'button'}, 'Contact');
   return element('figure', {}, canvas, element('p', {class: 'controls quiet'}, other, element('span', {class: 'body-a'}, 'cylinder A'),
-      element('span', {class: 'body-b'}, `${w.configuration.b.shape} B`), element('span', {}, '◆ truth; drag to turn')));
+      element('span', {class: 'body-b'}, nameOfB(w.configuration.b)), element('span', {}, '◆ truth; drag to turn')));
 }
 follow(() => {
   galleryCount = atOnce;

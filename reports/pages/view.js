@@ -228,14 +228,14 @@ function steerView(view, redraw, turn = turnView, zoom = zoomView) {
 }
 // The view of a contact.
 
-// What the views show of one configuration, about the contact along the true normal `index`:
+// What the views show of one configuration, about the contact along the true normal `index`, with the faces of a hull:
 // {bodies, normal, contact, outlines, across, signedDistance, radii, reaches: {depth, contact}}.
-function makeScene(given, truth, index) {
+function makeScene(given, truth, index, facesOfB) {
   const n = unit(truth.normals[index]), contact = truth.patch[index].centroid;
   const largest = s => s.shape === 'plane' ? 0 : Math.max(s.radius || 0, (s.half_length || 0) +
       (s.shape === 'capsule' ? s.radius : 0), ...(s.half_extents || []));
   const reach = 1.5 * largest(given.a);
-  const bodies = [makeBody(given.a, given.pose_a, contact, reach), makeBody(given.b, given.pose_b, contact, reach)];
+  const bodies = [makeBody(given.a, given.pose_a, contact, reach), makeBody({...given.b, faces: facesOfB}, given.pose_b, contact, reach)];
   const radii = bodies.map(b => { const all = b.faces.flat(); const c = bounds(all, b.axes).centre; return Math.max(...all.map(p => length(add(p, c, -1)))); });
   const outline = truth.patch[index].outline.map(p => add(p, contact, -1));
   const signedDistance = Number(truth.signed_distance[0]), largestRadius = Math.max(...radii);
@@ -246,6 +246,8 @@ function makeScene(given, truth, index) {
   return {bodies, normal: n, contact, outlines: outline.length > 1 ? [outline] : [], signedDistance, radii, reaches,
           across: across(n, u, add(bodies[1].centre, bodies[0].centre, -1))};
 }
+// "box B"; all bodies are drawn with sharp edges.
+const nameOfB = ({shape, rounding}) => `${shape} B${rounding ? ', drawn without its rounding' : ''}`;
 // The bodies shown at first: both, unless one of them would be too small to see.
 function mainBodies({bodies, radii}) {
   return Math.min(...radii) > Math.max(...radii) / 20 ? bodies : [smallerBody({bodies, radii})];
