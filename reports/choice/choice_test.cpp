@@ -407,13 +407,26 @@ TEST(ChoiceText, SaysWhereNoModelMeetsAllNeeds) {
   EXPECT_THAT(choice_text(choice, "out", 200), HasSubstr("\nExact: no model meets all needs:\n"));
 }
 
+PairsChoice pairs_of_file(const char* name) {
+  PairNeeds needs;
+  needs.count = 20;
+  const std::filesystem::path file = std::filesystem::path(TOUCHSTONE_SCENES) / name;
+  return choose_for_pairs(read_robot(file), needs, find_candidates({"capsule"}), {});
+}
+
+// A can between fingers of STL, beside a column of COLLADA.
+TEST(PairsOfAGripper, AreThoseWithItsMeshesToo) {
+  const PairsChoice choice = pairs_of_file("can-gripper.urdf");
+  std::vector<std::string> names;
+  for (const PairChoice& pair : choice.pairs) names.push_back(pair.name);
+  EXPECT_THAT(names, testing::UnorderedElementsAre(HasSubstr(" on convex 0.28×0.05×0.4"),
+                                                   HasSubstr(" on convex 0.03×0.024×0.08"),
+                                                   HasSubstr(" on box ")));
+  EXPECT_TRUE(choice.all_served());
+}
+
 struct WarehousePairs : testing::Test {
-  static PairsChoice choose() {
-    PairNeeds needs;
-    needs.count = 20;
-    const std::filesystem::path file = std::filesystem::path(TOUCHSTONE_SCENES) / "warehouse.sdf";
-    return choose_for_pairs(read_robot(file), needs, find_candidates({"capsule"}), {});
-  }
+  static PairsChoice choose() { return pairs_of_file("warehouse.sdf"); }
 };
 
 // Not the wheel with the tray, which a joint holds, nor the rollers with what is as fixed as they.

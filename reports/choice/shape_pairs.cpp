@@ -54,7 +54,6 @@ std::vector<ShapePair> shape_pairs(const RobotFile& file) {
       const LinkShape *a = parts[i].shape, *b = parts[j].shape;
       if (!std::holds_alternative<Cylinder>(a->shape)) std::swap(a, b);
       if (!std::holds_alternative<Cylinder>(a->shape)) continue;
-      if (std::holds_alternative<Convex>(b->shape)) continue;  // of which no poses are drawn
       std::string first = shape_text(a->shape), second = shape_text(b->shape);
       if (std::holds_alternative<Cylinder>(b->shape) && second < first) {
         std::swap(a, b);

@@ -75,12 +75,21 @@ Eigen::Quaterniond frame_of(Reader& in) {
   return normalized(Eigen::Quaterniond(w, x, y, z));
 }
 
+/// A triangle, so that no hull is a line, and up to six points more.
+void add_vertices(Reader& in, Numbers& n) {
+  for (int k = 0; k < 3; ++k) n.vertices.push_back(n.sizes[0] * Vec3::Unit(k));
+  for (unsigned i = in.byte() % 7; i > 0; --i) {
+    Vec3& v = n.vertices.emplace_back();
+    for (double& x : v) x = offset_of(in, n.sizes) + in.difference(least_exponent, 1) * n.sizes[0];
+  }
+}
+
 }  // namespace
 
 Configuration configuration_from_bytes(std::span<const std::uint8_t> bytes) {
   // Those with a search are worth more.
   constexpr std::array pairs = {Pair::cylinder, Pair::box,    Pair::capsule,  Pair::cylinder,
-                                Pair::plane,    Pair::sphere, Pair::cylinder, Pair::box};
+                                Pair::plane,    Pair::sphere, Pair::cylinder, Pair::convex};
   constexpr std::array along = {&upright, &along_x, &along_y};
   Reader in(bytes);
   Numbers n;
@@ -92,6 +101,7 @@ Configuration configuration_from_bytes(std::span<const std::uint8_t> bytes) {
   for (int i = 0; i < 3; ++i) {
     n.position_a[i] += in.difference(least_exponent, 1) * n.sizes[0];
   }
+  if (n.pair == Pair::convex) add_vertices(in, n);
   if (n.pair == Pair::plane) {
     n.normal = rotated(turn_of(in), Vec3::UnitZ());
     n.displacement = offset_of(in, n.sizes);
