@@ -49,8 +49,9 @@ TEST_P(RoundedTruthOfPairs, OfAnyRoundingIsConfirmedByTheSecondOracle) {
     const Configuration c = rounded_by(sharp, parts[k % 5], parts[(k / 5) % 5]);
     ++k;
     const Truth t = truth(c);
-    const bool is_continuum = t.ties == Ties::continuum;
-    expect_confirmed(c, t, audit::Budget{}, is_continuum ? 1e-4 : 1e-9);
+    // Branch and bound ends late where a whole family of normals ties.
+    const double width = t.ties == Ties::continuum ? 1e-4 : 1e-9;
+    expect_confirmed(c, t, audit::Budget{}, width);
   });
 }
 

@@ -109,16 +109,18 @@ TEST_P(Joints, MotorsMoveTheFirstBodyRelativeToTheSecondWhicheverIsFixed) {
 }
 
 TEST_P(Joints, AMotorLeavesTheLimitWhereItBeginsAtItsRate) {
+  // What throws a body out of a limit gives it a multiple of the rate; a soft limit a share of it.
+  constexpr double rate_of_motor = 0.1, most = 1.5 * rate_of_motor;
   for (const JointKind kind : {JointKind::hinge, JointKind::slider}) {
     SCOPED_TRACE(joint_kind_name(kind));
     const MotorScene motor{kind, "b"};
     Scene scene = motor.scene();
     scene.duration = 0.1;
-    scene.joints[0].motor = rate(0.1, motor.force());
+    scene.joints[0].motor = rate(rate_of_motor, motor.force());
     scene.joints[0].lower = 0;
     scene.joints[0].upper = 1;
     for (const States& states : run(scene)) {
-      EXPECT_LT(states[0].velocity.z() + states[0].angular_velocity.z(), 0.15);
+      EXPECT_LT(states[0].velocity.z() + states[0].angular_velocity.z(), most);
     }
   }
 }
