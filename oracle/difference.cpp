@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "oracle/body.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone::oracle {
@@ -107,25 +108,6 @@ void reduce(Integer& norm, std::array<IntegerVector, 3>& columns) {
   }
 }
 
-struct Lengths {
-  DyadicScale scale;
-
-  void include(const Cylinder& s) {
-    scale.include(Vec3(s.radius(), s.half_length(), s.rounding()));
-  }
-  void include(const Capsule& s) { scale.include(Vec3(s.radius(), s.half_length(), 0)); }
-  void include(const Sphere& s) { scale.include(s.radius()); }
-  void include(const Box& s) {
-    scale.include(s.half_extents());
-    scale.include(s.rounding());
-  }
-  void include(const Convex& s) {
-    scale.include(s.rounding());
-    for (const Vec3& v : s.vertices()) scale.include(v);
-  }
-  void include(const Plane& s) { scale.include(s.displacement()); }
-};
-
 /// The vertices in integers of B's frame, from a point in the middle of their box.
 struct LocalHull {
   IntegerVector middle;
@@ -150,12 +132,19 @@ LocalHull local_hull(const Convex& body, const DyadicScale& length, const Intege
 }  // namespace
 
 Difference make_difference(const Configuration& c) {
-  Lengths lengths;
-  lengths.include(c.a);
-  std::visit([&](const auto& shape) { lengths.include(shape); }, c.b);
-  lengths.scale.include(c.pose_a.position());
-  lengths.scale.include(c.pose_b.position());
-  const DyadicScale& length = lengths.scale;
+  DyadicScale length;
+  const Body body_a(c.a), body_b(c.b);
+  for (const Body* body : {&body_a, &body_b}) {
+    length.include(body->half_extents);
+    length.include(Vec3(body->disc_radius, body->inset, body->ball_radius));
+  }
+  if (body_b.hull) {
+    for (const Vec3& v : body_b.hull->vertices()) length.include(v);
+  }
+  const auto* const plane = std::get_if<Plane>(&c.b);
+  if (plane) length.include(plane->displacement());
+  length.include(c.pose_a.position());
+  length.include(c.pose_b.position());
 
   const IntegerRotation a = exact_rotation(c.pose_a.orientation());
   const IntegerRotation b = exact_rotation(c.pose_b.orientation());
@@ -171,8 +160,7 @@ Difference make_difference(const Configuration& c) {
   // B's axes in A's frame, times norm.
   Integer norm = 1;
   std::array<IntegerVector, 3> axes_b;
-  const bool has_axes = !std::holds_alternative<Sphere>(c.b) && !std::holds_alternative<Plane>(c.b);
-  if (has_axes) {
+  if (body_b.half_extents.z() > 0 || body_b.hull) {
     norm = a.norm * b.norm;
     for (int i = 0; i < 3; ++i) axes_b[i] = a.apply_inverse(b.columns[i]);
     reduce(norm, axes_b);
@@ -186,7 +174,7 @@ Difference make_difference(const Configuration& c) {
   IntegerVector centre = a.apply_inverse(centre_world);
   Integer centre_denominator = a.norm;
 
-  if (const auto* plane = std::get_if<Plane>(&c.b)) {
+  if (plane) {
     DyadicScale normal_scale;
     normal_scale.include(plane->normal());
     const IntegerVector n = normal_scale(plane->normal());
@@ -209,35 +197,27 @@ Difference make_difference(const Configuration& c) {
   difference.per_metre = length.factor() * finer;
 
   const auto size = [&](double value) { return Integer(length(value) * finer); };
-  const Integer rounding_a = size(c.a.rounding()), rounding_b = size(rounding_of(c.b));
-  difference.inflation = rounding_a + rounding_b;
-  const Frame frame_a{{0, 0, norm}, {norm, 0, 0}, {0, norm, 0}};
-  add_segment(difference, frame_a, size(c.a.half_length()) - rounding_a);
-  add_disc(difference, frame_a, size(c.a.radius()) - rounding_a);
-
-  const Frame frame_b{axes_b[2], axes_b[0], axes_b[1]};
-  if (const auto* sphere = std::get_if<Sphere>(&c.b)) {
-    difference.inflation += size(sphere->radius());
-  } else if (const auto* capsule = std::get_if<Capsule>(&c.b)) {
-    add_segment(difference, frame_b, size(capsule->half_length()));
-    difference.inflation += size(capsule->radius());
-  } else if (const auto* cylinder = std::get_if<Cylinder>(&c.b)) {
-    add_segment(difference, frame_b, size(cylinder->half_length()) - rounding_b);
-    add_disc(difference, frame_b, size(cylinder->radius()) - rounding_b);
-    leave_out_point(difference);
-  } else if (const auto* box = std::get_if<Box>(&c.b)) {
+  const auto add = [&](const Body& body, const std::array<IntegerVector, 3>& axes) {
+    const auto frame = [&](int i) { return Frame{axes[i], axes[(i + 1) % 3], axes[(i + 2) % 3]}; };
+    const auto of_core = [&](double outer) { return Integer(size(outer) - size(body.inset)); };
+    difference.inflation += size(body.ball_radius);
     for (int i = 0; i < 3; ++i) {
-      const Frame edge{axes_b[i], axes_b[(i + 1) % 3], axes_b[(i + 2) % 3]};
-      const Integer half = size(box->half_extents()[i]) - rounding_b;
-      if (half != 0) add_segment(difference, edge, half);
+      if (body.half_extents[i] == 0) continue;
+      const Integer half = of_core(body.half_extents[i]);
+      if (half != 0 || body.disc_radius > 0) add_segment(difference, frame(i), half);
     }
-  } else if (const auto* body = std::get_if<Convex>(&c.b)) {
+    if (body.disc_radius > 0) add_disc(difference, frame(2), of_core(body.disc_radius));
+  };
+  add(body_a, {{{norm, 0, 0}, {0, norm, 0}, {0, 0, norm}}});
+  add(body_b, axes_b);
+  leave_out_point(difference);
+  if (body_b.hull) {
     const auto in_frame = [&](const IntegerVector& v) {
       return v.x * axes_b[0] + v.y * axes_b[1] + v.z * axes_b[2];
     };
-    const LocalHull local = local_hull(*body, length, finer);
+    const LocalHull local = local_hull(*body_b.hull, length, finer);
     difference.d = difference.d - in_frame(local.middle);
-    difference.hull.emplace(Difference::Hull{{}, *body, 0});
+    difference.hull.emplace(Difference::Hull{{}, *body_b.hull, 0});
     for (const IntegerVector& v : local.vertices) {
       difference.hull->vertices.push_back(in_frame(v));
       difference.hull->reach =

@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "oracle/body.hpp"
 #include "oracle/hull.hpp"
 #include "reference/invalid_input.hpp"
 
@@ -45,23 +46,15 @@ class Grid {
 mpq_class change(double from, double to) { return abs(mpq_class(to) - mpq_class(from)); }
 
 /// Upper bound of the distance from the centre of those points of a shape that a rotation moves.
-struct Reach {
-  mpq_class operator()(const Cylinder& s) const {
-    return mpq_class(s.radius()) + mpq_class(s.half_length());
+mpq_class reach(const Shape& shape) {
+  const Body body(shape);
+  Vec3 farthest = body.half_extents;
+  if (body.hull) {
+    for (const Vec3& v : body.hull->vertices()) farthest = farthest.cwiseMax(v.cwiseAbs());
   }
-  mpq_class operator()(const Capsule& s) const { return s.half_length(); }
-  mpq_class operator()(const Box& s) const {
-    const Vec3& h = s.half_extents();
-    return mpq_class(h.x()) + mpq_class(h.y()) + mpq_class(h.z());
-  }
-  mpq_class operator()(const Convex& s) const {
-    Vec3 farthest = Vec3::Zero();
-    for (const Vec3& v : s.vertices()) farthest = farthest.cwiseMax(v.cwiseAbs());
-    return mpq_class(farthest.x()) + mpq_class(farthest.y()) + mpq_class(farthest.z());
-  }
-  mpq_class operator()(const Sphere&) const { return 0; }
-  mpq_class operator()(const Plane&) const { return 0; }
-};
+  return mpq_class(farthest.x()) + mpq_class(farthest.y()) + mpq_class(farthest.z()) +
+         mpq_class(body.disc_radius);
+}
 
 /// The hull of rounded vertices; of the given ones if rounding puts them on one line. Adds to
 /// `error` how far a vertex moves at most, and by how much the rounding changes.
@@ -130,9 +123,8 @@ RoundedConfiguration rounded_configuration(const Configuration& c, int bits) {
       error += abs(moved_a - moved_b);
     }
   }
-  const Eigen::Quaterniond q_a = rounded(c.pose_a.orientation(), bits, Reach{}(a), error);
-  const Eigen::Quaterniond q_b =
-      rounded(c.pose_b.orientation(), bits, std::visit(Reach{}, b), error);
+  const Eigen::Quaterniond q_a = rounded(c.pose_a.orientation(), bits, reach(a), error);
+  const Eigen::Quaterniond q_b = rounded(c.pose_b.orientation(), bits, reach(b), error);
   return {{a, Pose(to_a, q_a), b, Pose(to_b, q_b)}, error};
 }
 

@@ -14,6 +14,7 @@
 
 #include <Eigen/Core>
 
+#include "oracle/body.hpp"
 #include "oracle/displacement.hpp"
 #include "oracle/enclosure.hpp"
 #include "oracle/rounding.hpp"
@@ -128,10 +129,9 @@ OptimalNormal optimal_normal(const Difference& difference, const Shape& b,
   const auto to_b = [&](int i) {
     return alignment(direction, axes[i], axes[(i + 1) % 3], axes[(i + 2) % 3]);
   };
-  if (std::holds_alternative<Box>(b)) {
-    result.to_b = {to_b(0), to_b(1), to_b(2)};
-  } else if (std::holds_alternative<Cylinder>(b) || std::holds_alternative<Capsule>(b)) {
-    result.to_b[2] = to_b(2);
+  const Vec3 half_extents = Body(b).half_extents;
+  for (int i = 0; i < 3; ++i) {
+    if (half_extents[i] > 0) result.to_b[i] = to_b(i);
   }
   return result;
 }

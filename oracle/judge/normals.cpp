@@ -6,10 +6,12 @@
 #include <numbers>
 #include <variant>
 
+#include "oracle/body.hpp"
+
 namespace touchstone {
 namespace {
 
-using oracle::NormalFamily;
+using oracle::Body, oracle::NormalFamily;
 
 /// Listed members of a curve stand for those within this angle, degrees.
 constexpr double near = 1;
@@ -37,55 +39,37 @@ std::optional<Vec3> nearest_within(const NormalFamily& family, const Vec3& n) {
 
 /// Half the extent along a direction, which is given in the body's frame; of a hull, how far it
 /// reaches that way from the middle of its extents.
-struct HalfExtent {
-  Vec3 n;
+double half_extent(const Body& body, const Vec3& n) {
+  const Vec3 middle = body.hull ? body.hull->middle() : Vec3(Vec3::Zero());
+  return body.core_reach(n, middle) + body.ball_radius * n.norm();
+}
 
-  double operator()(const Cylinder& s) const {
-    return s.core_radius() * std::hypot(n.x(), n.y()) + s.core_half_length() * std::abs(n.z()) +
-           s.rounding() * n.norm();
+double circumradius(const Body& body) {
+  if (!body.hull) {
+    const Vec3 half = body.core_half_extents();
+    return std::hypot(body.core_radius(), body.is_round() ? half.z() : half.norm()) +
+           body.ball_radius;
   }
-  double operator()(const Capsule& s) const {
-    return s.radius() * n.norm() + s.half_length() * std::abs(n.z());
+  double farthest = 0;
+  for (const Vec3& v : body.hull->vertices()) {
+    farthest = std::max(farthest, (v - body.hull->middle()).norm());
   }
-  double operator()(const Sphere& s) const { return s.radius() * n.norm(); }
-  double operator()(const Box& s) const {
-    return s.core_half_extents().dot(n.cwiseAbs()) + s.rounding() * n.norm();
-  }
-  double operator()(const Convex& s) const {
-    double farthest = -std::numeric_limits<double>::infinity();
-    for (const Vec3& v : s.vertices()) farthest = std::max(farthest, (v - s.middle()).dot(n));
-    return farthest + s.rounding() * n.norm();
-  }
-  double operator()(const Plane&) const { return std::numeric_limits<double>::infinity(); }
-};
-
-struct Circumradius {
-  double operator()(const Cylinder& s) const {
-    return std::hypot(s.core_radius(), s.core_half_length()) + s.rounding();
-  }
-  double operator()(const Capsule& s) const { return s.radius() + s.half_length(); }
-  double operator()(const Sphere& s) const { return s.radius(); }
-  double operator()(const Box& s) const { return s.core_half_extents().norm() + s.rounding(); }
-  double operator()(const Convex& s) const {
-    double farthest = 0;
-    for (const Vec3& v : s.vertices()) farthest = std::max(farthest, (v - s.middle()).norm());
-    return farthest + s.rounding();
-  }
-  double operator()(const Plane&) const { return std::numeric_limits<double>::infinity(); }
-};
+  return farthest + body.ball_radius;
+}
 
 /// Regret of n for a body that touches a half-space with the normal m; infinite for a plane, which
 /// touches none. With α between them and the half extent h it is h(n) − h(m) cos α + ρ sin α + 2ρ
 /// max(0, −cos α): of the half-space the column beneath the body's circumsphere counts, two radii
 /// deep.
 double regret_on_half_space(const Shape& shape, const Pose& pose, const Vec3& n, const Vec3& m) {
-  const auto half_extent = [&](const Vec3& v) {
-    return std::visit(HalfExtent{pose.rotation().transpose() * v}, shape);
-  };
   if (std::holds_alternative<Plane>(shape)) return std::numeric_limits<double>::infinity();
-  const double cosine = n.dot(m), radius = std::visit(Circumradius{}, shape);
-  return half_extent(n) - cosine * half_extent(m) +
-         radius * (n.cross(m).norm() + 2 * std::max(0.0, -cosine));
+  const Body body(shape);
+  const auto along = [&](const Vec3& v) {
+    return half_extent(body, pose.rotation().transpose() * v);
+  };
+  const double cosine = n.dot(m);
+  return along(n) - cosine * along(m) +
+         circumradius(body) * (n.cross(m).norm() + 2 * std::max(0.0, -cosine));
 }
 
 }  // namespace

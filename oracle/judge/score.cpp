@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "oracle/body.hpp"
 #include "oracle/judge/normals.hpp"
 #include "oracle/patch/support_feature.hpp"
 #include "reference/invalid_input.hpp"
@@ -50,54 +51,44 @@ Vec3 nearest_on_surface(const Convex& s, const std::vector<Vec3>& vertices, doub
   return nearest;
 }
 
-struct Distance {
-  Vec3 p;  // in the body's frame
+double distance_of_hull(const Convex& s, const Vec3& p) {
+  // In multiples of a power of two near the distance's size, so that squares do not overflow.
+  const double largest = std::max((p - s.middle()).cwiseAbs().maxCoeff() + largest_half_extent(s),
+                                  std::numeric_limits<double>::min());
+  const double unit = std::ldexp(1.0, std::min(std::ilogb(largest), 1023));
+  std::vector<Vec3> vertices;
+  Vec3 mean = Vec3::Zero();
+  for (const Vec3& v : s.vertices()) {
+    vertices.emplace_back(v / unit - p / unit);
+    mean += vertices.back() / static_cast<double>(s.vertices().size());
+  }
+  const Vec3 nearest = nearest_on_surface(s, vertices, unit);
+  // Inside, the mean of the vertices is on the same side of the nearest point, which no normal of
+  // a thin face has to tell. Far away, rounding would.
+  const bool is_near = ((p - s.middle()).cwiseAbs().array() <= s.half_extents().array()).all();
+  const bool is_inside = is_near && !s.is_flat() && nearest.dot(nearest - mean) > 0;
+  return unit * (is_inside ? -nearest.norm() : nearest.norm());
+}
 
-  double across() const { return std::hypot(p.x(), p.y()); }
-
-  // Of a rounded body, the distance from its core, less the rounding.
-
-  double operator()(const Cylinder& s) const {
-    const double side = across() - s.core_radius(), cap = std::abs(p.z()) - s.core_half_length();
-    const double core = side > 0 || cap > 0 ? std::hypot(std::max(side, 0.0), std::max(cap, 0.0))
-                                            : std::max(side, cap);
-    return core - s.rounding();
-  }
-  double operator()(const Capsule& s) const {
-    const double beyond = std::max(std::abs(p.z()) - s.half_length(), 0.0);
-    return std::hypot(across(), beyond) - s.radius();
-  }
-  double operator()(const Sphere& s) const { return std::hypot(p.x(), p.y(), p.z()) - s.radius(); }
-  double operator()(const Box& s) const {
-    const Vec3 beyond = p.cwiseAbs() - s.core_half_extents();
-    return outside_of_all(beyond.x(), beyond.y(), beyond.z()) - s.rounding();
-  }
-  double operator()(const Convex& s) const {
-    // In multiples of a power of two near the distance's size, so that squares do not overflow.
-    const double largest = std::max((p - s.middle()).cwiseAbs().maxCoeff() + largest_half_extent(s),
-                                    std::numeric_limits<double>::min());
-    const double unit = std::ldexp(1.0, std::min(std::ilogb(largest), 1023));
-    std::vector<Vec3> vertices;
-    Vec3 mean = Vec3::Zero();
-    for (const Vec3& v : s.vertices()) {
-      vertices.emplace_back(v / unit - p / unit);
-      mean += vertices.back() / static_cast<double>(s.vertices().size());
-    }
-    const Vec3 nearest = nearest_on_surface(s, vertices, unit);
-    // Inside, the mean of the vertices is on the same side of the nearest point, which no normal of
-    // a thin face has to tell. Far away, rounding would.
-    const bool is_near = ((p - s.middle()).cwiseAbs().array() <= s.half_extents().array()).all();
-    const bool is_inside = is_near && !s.is_flat() && nearest.dot(nearest - mean) > 0;
-    return unit * (is_inside ? -nearest.norm() : nearest.norm()) - s.rounding();
-  }
-  double operator()(const Plane& s) const { return s.unit_normal().dot(p) - s.unit_displacement(); }
-};
+/// Signed distance from a body's core, of a point in the body's frame.
+double distance_of_core(const oracle::Body& body, const Vec3& p) {
+  if (body.hull) return distance_of_hull(*body.hull, p);
+  const Vec3 beyond = p.cwiseAbs() - body.core_half_extents();
+  if (!body.is_round()) return outside_of_all(beyond.x(), beyond.y(), beyond.z());
+  const double side = std::hypot(p.x(), p.y()) - body.core_radius(), cap = beyond.z();
+  return side > 0 || cap > 0 ? std::hypot(std::max(side, 0.0), std::max(cap, 0.0))
+                             : std::max(side, cap);
+}
 
 }  // namespace
 
 double point_distance(const Shape& shape, const Pose& pose, const Vec3& point) {
   const Vec3 local = pose.rotation().transpose() * (point - pose.position());
-  return std::visit(Distance{local}, shape);
+  if (const auto* const plane = std::get_if<Plane>(&shape)) {
+    return plane->unit_normal().dot(local) - plane->unit_displacement();
+  }
+  const oracle::Body body(shape);
+  return distance_of_core(body, local) - body.ball_radius;
 }
 
 namespace {

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "oracle/body.hpp"
 #include "oracle/patch/convex_set.hpp"
 #include "oracle/patch/feature_overlap.hpp"
 #include "oracle/patch/support_feature.hpp"
@@ -13,29 +14,12 @@
 namespace touchstone::oracle {
 namespace {
 
-// Support of a body about its position along the unit vector n of its own frame; for a plane the
-// height of its surface, whatever n is (Ericson, "Real-Time Collision Detection", 4.3 and 9.5).
-double reach(const Cylinder& s, const Vec3& n) {
-  return s.core_half_length() * std::abs(n.z()) + s.core_radius() * std::hypot(n.x(), n.y()) +
-         s.rounding();
-}
-double reach(const Capsule& s, const Vec3& n) {
-  return s.half_length() * std::abs(n.z()) + s.radius();
-}
-double reach(const Sphere& s, const Vec3&) { return s.radius(); }
-double reach(const Box& s, const Vec3& n) {
-  return s.core_half_extents().dot(n.cwiseAbs()) + s.rounding();
-}
-double reach(const Convex& s, const Vec3& n) {
-  double highest = -std::numeric_limits<double>::infinity();
-  for (const Vec3& v : s.vertices()) highest = std::max(highest, v.dot(n));
-  return highest + s.rounding();
-}
-double reach(const Plane& s, const Vec3&) { return s.unit_displacement(); }
-
+/// Support of a body about its position along the unit vector n; for a plane the height of its
+/// surface, whatever n is.
 double reach(const Shape& shape, const Pose& pose, const Vec3& n) {
-  const Vec3 local = pose.rotation().transpose() * n;
-  return std::visit([&](const auto& s) { return reach(s, local); }, shape);
+  if (const auto* const plane = std::get_if<Plane>(&shape)) return plane->unit_displacement();
+  const Body body(shape);
+  return body.core_reach(pose.rotation().transpose() * n) + body.ball_radius;
 }
 
 /// The plane across the unit vector n, halfway between the two support planes. Its origin is the

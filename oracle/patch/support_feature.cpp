@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "oracle/ball.hpp"
+#include "oracle/body.hpp"
 
 namespace touchstone::oracle {
 
@@ -45,23 +46,18 @@ struct PosedShape {
   Vec3 unit_axis(int i) const { return rounded(exact.axes[i]) / exact.norm.get_d(); }
   /// +1 or −1: the end of an axis, not perpendicular to the normal, that is farther out.
   int end(int i) const { return sgn(dot(exact.axes[i], out.direction)) < 0 ? -1 : 1; }
-  /// Of a body without a length along the axis, or without one across it, no end has to be chosen.
-  bool is_certain(int i, bool is_long = true, bool is_wide = true) const {
-    const Vec3 axis = unit_axis(i);
-    return out.is_exact || ((!is_long || std::abs(axis.dot(out.unit)) > nearly_aligned) &&
-                            (!is_wide || axis.cross(out.unit).norm() > nearly_aligned));
+  /// Does the normal tell which end of an axis is farther out, and to which side it leans?
+  bool is_certain(int i) const {
+    return out.is_exact || std::abs(unit_axis(i).dot(out.unit)) > nearly_aligned;
+  }
+  bool leans_certainly() const {
+    return out.is_exact || unit_axis(2).cross(out.unit).norm() > nearly_aligned;
   }
   SupportFeature centred(Kind kind) const {
     SupportFeature f;
     f.kind = kind;
     f.centre = exact.position;
     f.u = exact.axes[2];
-    return f;
-  }
-  /// Along the axis of a body of revolution.
-  SupportFeature generator(const mpq_class& half_length) const {
-    SupportFeature f = centred(Kind::segment);
-    f.u = half_length / exact.norm * f.u;
     return f;
   }
   /// Of corners in order, either way round.
@@ -78,70 +74,46 @@ struct PosedShape {
 // Of a rounded body the feature is that of its core, which may be a disc, a segment or a point; a
 // point is moved out by the rounding, while what others have along the normal has no meaning.
 
-/// What a rounding leaves of a size, exactly.
-mpq_class of_core(double size, double rounding) { return mpq_class(size) - mpq_class(rounding); }
-
-SupportFeature feature(const Cylinder& shape, const PosedShape& body) {
-  const mpq_class radius = of_core(shape.radius(), shape.rounding());
-  const mpq_class half_length = of_core(shape.half_length(), shape.rounding());
-  if (body.alignment[2] == Alignment::parallel && radius > 0) {
-    SupportFeature f = body.centred(Kind::disc);
-    f.radius = radius;
-    return f;
-  }
-  if (body.alignment[2] == Alignment::perpendicular && half_length > 0) {
-    return body.generator(half_length);
-  }
-  SupportFeature f;
-  // The component perpendicular to the axis is exact, so that a small tilt loses no digits.
-  const RationalVector &n = body.out.direction, &axis = body.exact.axes[2];
-  const mpq_class along = dot(axis, n) / (body.exact.norm * body.exact.norm);
-  const Vec3 radial = rounded(n - along * axis);
-  f.point = body.pose.position() + body.end(2) * shape.core_half_length() * body.unit_axis(2) +
-            shape.rounding() * body.out.unit;
-  if (!radial.isZero(0)) f.point += shape.core_radius() * radial.normalized();
-  f.point_is_certain = body.is_certain(2, half_length > 0, radius > 0);
-  return f;
-}
-
-SupportFeature feature(const Capsule& shape, const PosedShape& body) {
-  if (body.alignment[2] == Alignment::perpendicular) return body.generator(shape.half_length());
-  SupportFeature f;
-  f.point = body.pose.position() + body.end(2) * shape.half_length() * body.unit_axis(2) +
-            shape.radius() * body.out.unit;
-  f.point_is_certain = body.is_certain(2);
-  return f;
-}
-
-SupportFeature feature(const Sphere& shape, const PosedShape& body) {
-  SupportFeature f;
-  f.point = body.pose.position() + shape.radius() * body.out.unit;
-  return f;
-}
-
-SupportFeature feature(const Box& shape, const PosedShape& body) {
-  SupportFeature f = body.centred(Kind::point);
-  f.point = body.pose.position() + shape.rounding() * body.out.unit;
+/// Of a box and a disc.
+SupportFeature feature(const Body& shape, const PosedShape& body) {
+  const auto radius = shape.of_core<mpq_class>(shape.disc_radius);
+  SupportFeature f = body.centred(Kind::disc);
+  f.radius = radius;
+  if (body.alignment[2] == Alignment::parallel && radius > 0) return f;
+  f.kind = Kind::point;
+  f.point = body.pose.position();
   std::vector<RationalVector> across;  // halves of the box
   for (int i = 0; i < 3; ++i) {
-    const mpq_class half = of_core(shape.half_extents()[i], shape.rounding());
+    const auto half = shape.of_core<mpq_class>(shape.half_extents[i]);
     if (half == 0) continue;
     const RationalVector along = half / body.exact.norm * body.exact.axes[i];
     if (body.alignment[i] == Alignment::perpendicular) {
       across.push_back(along);
       continue;
     }
-    f.point += body.end(i) * half.get_d() * body.unit_axis(i);
+    f.point += body.end(i) * shape.of_core(shape.half_extents[i]) * body.unit_axis(i);
     f.centre = f.centre + body.end(i) * along;
     f.point_is_certain = f.point_is_certain && body.is_certain(i);
   }
-  if (across.empty()) return f;
-  f.kind = Kind::segment;
-  f.u = across[0];
-  if (across.size() == 1) return f;
-  const RationalVector sum = across[0] + across[1], difference = across[0] - across[1];
-  return body.polygon(
-      {f.centre - sum, f.centre + difference, f.centre + sum, f.centre - difference});
+  if (across.size() > 1) {
+    const RationalVector sum = across[0] + across[1], difference = across[0] - across[1];
+    return body.polygon(
+        {f.centre - sum, f.centre + difference, f.centre + sum, f.centre - difference});
+  }
+  if (across.size() == 1) {
+    f.kind = Kind::segment;
+    f.u = across[0];
+    return f;
+  }
+  f.point += shape.ball_radius * body.out.unit;
+  if (radius == 0) return f;
+  // The component perpendicular to the axis is exact, so that a small tilt loses no digits.
+  const RationalVector &n = body.out.direction, &axis = body.exact.axes[2];
+  const mpq_class along = dot(axis, n) / (body.exact.norm * body.exact.norm);
+  const Vec3 radial = rounded(n - along * axis);
+  if (!radial.isZero(0)) f.point += shape.core_radius() * radial.normalized();
+  f.point_is_certain = f.point_is_certain && body.leans_certainly();
+  return f;
 }
 
 /// The vertices that lie in the support plane, as far as the direction tells.
@@ -190,7 +162,11 @@ SupportFeature feature(const Convex& shape, const PosedShape& body) {
   return f;
 }
 
-SupportFeature feature(const Plane&, const PosedShape& body) { return body.centred(Kind::plane); }
+SupportFeature feature(const Shape& shape, const PosedShape& body) {
+  if (std::holds_alternative<Plane>(shape)) return body.centred(Kind::plane);
+  const auto* const hull = std::get_if<Convex>(&shape);
+  return hull ? feature(*hull, body) : feature(Body(shape), body);
+}
 
 /// The normal as an exact vector of any length if it is parallel to an axis or a plane's normal;
 /// otherwise its doubles.
@@ -223,8 +199,7 @@ SupportFeatures support_features(const Configuration& c, const OptimalNormal& no
   const std::array<Alignment, 3> to_a{Alignment::oblique, Alignment::oblique, normal.to_a};
   const PosedShape body_a{c.pose_a, a, out_of_a, to_a, {}};
   const PosedShape body_b{c.pose_b, b, out_of_b, normal.to_b, normal.support_b};
-  return {feature(c.a, body_a),
-          std::visit([&](const auto& shape) { return feature(shape, body_b); }, c.b)};
+  return {feature(Body(c.a), body_a), feature(c.b, body_b)};
 }
 
 namespace {
@@ -379,30 +354,19 @@ double ball_width(double r, double epsilon) {
   return epsilon < r ? 2 * std::sqrt(epsilon * (2 * r - epsilon)) : 2 * r;
 }
 
-WidthFromEpsilon width(const Cylinder& shape, const Vec3& n, double epsilon) {
-  const double r = shape.core_radius(), h = shape.core_half_length();
-  const double s = std::hypot(n.x(), n.y()), c = std::abs(n.z());
-  const double along = width_along(h, c, epsilon);
-  const bool has_one_end = h == 0 || 2 * h * c > epsilon;
-  if (2 * r * s <= epsilon) return {along, r == 0 && has_one_end};
-  const double round = 2 * r * std::sin(std::min(reach(r * s, epsilon), std::numbers::pi / 2));
-  return {std::max(along, round), has_one_end};
-}
-WidthFromEpsilon width(const Sphere& shape, const Vec3&, double epsilon) {
-  return {ball_width(shape.radius(), epsilon), true};
-}
-WidthFromEpsilon width(const Capsule& shape, const Vec3& n, double epsilon) {
-  const double h = shape.half_length(), c = std::abs(n.z());
-  return {ball_width(shape.radius(), epsilon) + width_along(h, c, epsilon), 2 * h * c > epsilon};
-}
-WidthFromEpsilon width(const Box& shape, const Vec3& n, double epsilon) {
+/// Of a core of box and disc.
+WidthFromEpsilon width(const Body& shape, const Vec3& n, double epsilon) {
   WidthFromEpsilon result{0, true};
   for (int i = 0; i < 3; ++i) {
     const double h = shape.core_half_extents()[i], c = std::abs(n[i]);
     result.largest = std::max(result.largest, width_along(h, c, epsilon));
     result.is_a_corner = result.is_a_corner && (h == 0 || 2 * h * c > epsilon);
   }
-  return result;
+  const double r = shape.core_radius(), s = std::hypot(n.x(), n.y());
+  if (r == 0) return result;
+  if (2 * r * s <= epsilon) return {result.largest, false};
+  const double round = 2 * r * std::sin(std::min(reach(r * s, epsilon), std::numbers::pi / 2));
+  return {std::max(result.largest, round), result.is_a_corner};
 }
 /// By the edges of the highest vertex, as of a box.
 WidthFromEpsilon width(const Convex& shape, const Vec3& n, double epsilon) {
@@ -426,7 +390,6 @@ WidthFromEpsilon width(const Convex& shape, const Vec3& n, double epsilon) {
   }
   return result;
 }
-WidthFromEpsilon width(const Plane&, const Vec3&, double) { return {0, false}; }
 
 /// A point of the core that is lower than its highest one by less than epsilon carries a ball, of
 /// which the part within the rest of epsilon counts: the points that are farthest in all directions
@@ -482,12 +445,12 @@ std::vector<Vec3> rounded_part(const Shape& shape, const Vec3& centre, const Eig
 
 WidthFromEpsilon width_from_epsilon(const Shape& shape, const Pose& pose, const Vec3& n,
                                     double epsilon) {
+  if (std::holds_alternative<Plane>(shape)) return {0, false};
   const Vec3 local = pose.rotation().transpose() * n;
+  const Body body(shape);
   WidthFromEpsilon result =
-      std::visit([&](const auto& s) { return width(s, local, epsilon); }, shape);
-  if (const double rounding = rounding_of(shape); rounding > 0) {
-    result.largest += ball_width(rounding, epsilon);
-  }
+      body.hull ? width(*body.hull, local, epsilon) : width(body, local, epsilon);
+  if (body.ball_radius > 0) result.largest += ball_width(body.ball_radius, epsilon);
   return result;
 }
 
