@@ -237,7 +237,7 @@ double radius_of_ball_part(double r, double left) {
   return left < r ? std::sqrt(left * (2 * r - left)) : r;
 }
 
-/// Of a rounded body, its core.
+/// Of a body's core.
 struct Part {
   Vec3 n;
   double epsilon;
@@ -247,8 +247,7 @@ struct Part {
   // than the highest point by r s (1 − cos φ) + c (h − w), where c and s are the cosine and sine of
   // the angle between the axis and n. For each φ the part is an interval of w up to h. Its hull is
   // that of the upper rim, the cut across the side, and the lower rim if the part reaches it.
-  void add(const Cylinder& shape, const Vec3& centre, const Eigen::Matrix3d& axes) {
-    const double r = shape.core_radius(), h = shape.core_half_length();
+  void add_cylinder(double r, double h, const Vec3& centre, const Eigen::Matrix3d& axes) {
     const Vec3 up = axes.col(2).dot(n) < 0 ? Vec3(-axes.col(2)) : Vec3(axes.col(2));
     const double c = up.dot(n);
     const Vec3 lateral(axes.col(0).dot(n), axes.col(1).dot(n), 0);
@@ -277,52 +276,17 @@ struct Part {
     }
   }
 
-  void add_ball(double r, const Vec3& centre, double left, int count) {
-    const double radius = radius_of_ball_part(r, left);
-    const Vec3 e1 = n.unitOrthogonal(), e2 = n.cross(e1);
-    for (int i = 0; i < count; ++i) {
-      const double angle = 2 * std::numbers::pi * i / count;
-      points.push_back(centre + radius * (std::cos(angle) * e1 + std::sin(angle) * e2));
-    }
-  }
-
-  void add(const Sphere& shape, const Vec3& centre, const Eigen::Matrix3d&) {
-    add_ball(shape.radius(), centre, epsilon, chords);
-  }
-
-  // Balls about points of the segment, from the highest to the lowest that reaches the part. The
-  // remaining epsilon decreases as a square, so that the radii decrease evenly.
-  void add(const Capsule& shape, const Vec3& centre, const Eigen::Matrix3d& axes) {
-    constexpr int balls = 12;
-    const double r = shape.radius(), h = shape.half_length();
-    const Vec3 up = axes.col(2).dot(n) < 0 ? Vec3(-axes.col(2)) : Vec3(axes.col(2));
-    const double c = up.dot(n);
-    const double lowest_root = std::sqrt(std::max(0.0, 1 - 2 * h * c / epsilon));
-    for (int i = 0; i <= balls; ++i) {
-      const double root = 1 - (1 - lowest_root) * i / balls;
-      const double left = epsilon * root * root;
-      // A segment perpendicular to n lies in the part with both ends.
-      const bool at_end = i == balls && lowest_root > 0;
-      const double w = i == 0 ? h : at_end || c == 0 ? -h : std::max(-h, h - (epsilon - left) / c);
-      add_ball(r, centre + w * up, left, chords / 2);
-    }
-  }
-
-  void add(const Box& shape, const Vec3& centre, const Eigen::Matrix3d& axes) {
+  void add_box(const Vec3& half_extents, const Vec3& centre, const Eigen::Matrix3d& axes) {
     std::vector<Vec3> corners;
     std::vector<Convex::Edge> edges;
     for (int bits = 0; bits < 8; ++bits) {
       const Vec3 signs(bits & 1 ? 1 : -1, bits & 2 ? 1 : -1, bits & 4 ? 1 : -1);
-      corners.emplace_back(signs.cwiseProduct(shape.core_half_extents()));
+      corners.emplace_back(signs.cwiseProduct(half_extents));
       for (int i = 0; i < 3; ++i) {
         if (!(bits >> i & 1)) edges.push_back({{bits, bits | 1 << i}, {}});
       }
     }
     add_polytope(corners, edges, centre, axes);
-  }
-
-  void add(const Convex& shape, const Vec3& centre, const Eigen::Matrix3d& axes) {
-    add_polytope(shape.vertices(), shape.edges(), centre, axes);
   }
 
   // The vertices in the part, and where edges leave it.
@@ -341,7 +305,16 @@ struct Part {
     }
   }
 
-  void add(const Plane&, const Vec3&, const Eigen::Matrix3d&) {}
+  void add_core(const Body& shape, const Vec3& centre, const Eigen::Matrix3d& axes) {
+    const Vec3 half = shape.core_half_extents();
+    if (shape.hull) {
+      add_polytope(shape.hull->vertices(), shape.hull->edges(), centre, axes);
+    } else if (shape.core_radius() > 0) {
+      add_cylinder(shape.core_radius(), half.z(), centre, axes);
+    } else {
+      add_box(half, centre, axes);
+    }
+  }
 };
 
 /// Width of the part along an axis of half length h with the cosine c to n, seen along n; zero if
@@ -395,11 +368,10 @@ WidthFromEpsilon width(const Convex& shape, const Vec3& n, double epsilon) {
 /// which the part within the rest of epsilon counts: the points that are farthest in all directions
 /// about n, of balls on the parts of the core within several depths, and on the corners of that
 /// within epsilon.
-std::vector<Vec3> rounded_part(const Shape& shape, const Vec3& centre, const Eigen::Matrix3d& axes,
+std::vector<Vec3> rounded_part(const Body& shape, const Vec3& centre, const Eigen::Matrix3d& axes,
                                const Vec3& n, double epsilon) {
   constexpr int rests = 16;
   constexpr double nothing = 1e-12;  // of epsilon: the core's highest points
-  const double rounding = rounding_of(shape);
   struct Carried {
     Vec3 centre;
     double radius;
@@ -407,7 +379,7 @@ std::vector<Vec3> rounded_part(const Shape& shape, const Vec3& centre, const Eig
   std::vector<std::vector<Carried>> of_depths;
   const auto core_within = [&](double depth) {
     Part core{n, depth, {}};
-    std::visit([&](const auto& s) { core.add(s, centre, axes); }, shape);
+    core.add_core(shape, centre, axes);
     return core.points;
   };
   for (int i = 0; i <= rests; ++i) {
@@ -415,7 +387,7 @@ std::vector<Vec3> rounded_part(const Shape& shape, const Vec3& centre, const Eig
     const double root = 1 - static_cast<double>(i) / rests, rest = epsilon * root * root;
     auto& balls = of_depths.emplace_back();
     for (const Vec3& p : core_within(std::max(epsilon - rest, nothing * epsilon))) {
-      balls.push_back({p, radius_of_ball_part(rounding, rest)});
+      balls.push_back({p, radius_of_ball_part(shape.ball_radius, rest)});
     }
   }
   const std::vector<Vec3> within = core_within(epsilon);
@@ -424,7 +396,7 @@ std::vector<Vec3> rounded_part(const Shape& shape, const Vec3& centre, const Eig
   auto& corners = of_depths.emplace_back();
   for (const Vec3& p : within) {
     const double rest = std::clamp(epsilon - (top - height(p)), 0.0, epsilon);
-    corners.push_back({p, radius_of_ball_part(rounding, rest)});
+    corners.push_back({p, radius_of_ball_part(shape.ball_radius, rest)});
   }
 
   const Vec3 e1 = n.unitOrthogonal(), e2 = n.cross(e1);
@@ -457,9 +429,10 @@ WidthFromEpsilon width_from_epsilon(const Shape& shape, const Pose& pose, const 
 std::vector<Vec3> support_part(const Shape& shape, const Pose& pose, const Vec3& n, double epsilon,
                                const Vec3& origin) {
   const Vec3 centre = pose.position() - origin;
-  if (rounding_of(shape) > 0) return rounded_part(shape, centre, pose.rotation(), n, epsilon);
+  const Body body(shape);
+  if (body.ball_radius > 0) return rounded_part(body, centre, pose.rotation(), n, epsilon);
   Part part{n, epsilon, {}};
-  std::visit([&](const auto& s) { part.add(s, centre, pose.rotation()); }, shape);
+  part.add_core(body, centre, pose.rotation());
   return part.points;
 }
 
