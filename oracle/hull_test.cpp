@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "oracle/ball.hpp"
+#include "reference/error_of_test.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone::oracle {
@@ -193,21 +194,11 @@ TEST(Hull, HasAsManyCornersAsThereMayBeAndNoMore) {
   points.push_back(Vec3::Zero());  // of points inside there may be any number
   EXPECT_EQ(convex_hull(points).vertices(), body.vertices());
   for (const Vec3& p : random_points(200, 12)) points.push_back(p.normalized());
-  try {
-    convex_hull(points);
-    FAIL();
-  } catch (const InvalidInput& e) {
-    EXPECT_TRUE(std::string(e.what()).ends_with(" corners: must be at most 4096")) << e.what();
-  }
+  EXPECT_EQ(error_of([&] { convex_hull(points); }).remedy(), "must be at most 4096");
 }
 
 std::string refusal(const std::vector<Vec3>& points) {
-  try {
-    convex_hull(points);
-  } catch (const InvalidInput& e) {
-    return e.what();
-  }
-  return "taken";
+  return error_text_of([&] { convex_hull(points); });
 }
 
 TEST(Hull, SaysWhatPointsAreNotOne) {

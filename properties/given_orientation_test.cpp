@@ -6,6 +6,7 @@
 #include <numbers>
 #include <random>
 
+#include "reference/error_of_test.hpp"
 #include "reference/invalid_input.hpp"
 #include "reference/pose.hpp"
 
@@ -74,13 +75,7 @@ TEST(RotationMatrix, ThatIsNearlyOneIsReadAsTheNearest) {
 }
 
 std::string refusal_of(const Eigen::Matrix3d& m) {
-  try {
-    orientation_of(m);
-  } catch (const InvalidInput& e) {
-    EXPECT_EQ(e.field(), "rotation");
-    return e.what();
-  }
-  return "accepted";
+  return error_text_of([&] { orientation_of(m); });
 }
 
 TEST(RotationMatrix, ThatIsNoneIsRefusedWithTheReason) {

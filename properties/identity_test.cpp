@@ -8,6 +8,7 @@
 #include "properties/pose_class.hpp"
 #include "properties/simplify.hpp"
 #include "properties/stable_hash.hpp"
+#include "reference/error_of_test.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone {
@@ -82,13 +83,9 @@ TEST(Identity, RefusesWhatItIsNotAndNamesThePart) {
   };
   for (const auto& row : table) {
     SCOPED_TRACE(row.text);
-    try {
-      parse_identity(row.text);
-      ADD_FAILURE() << "accepted";
-    } catch (const InvalidInput& e) {
-      EXPECT_EQ(e.field(), row.field);
-      EXPECT_THAT(e.remedy(), HasSubstr(row.remedy));
-    }
+    const InvalidInput error = error_of([&] { parse_identity(row.text); });
+    EXPECT_EQ(error.field(), row.field);
+    EXPECT_THAT(error.remedy(), HasSubstr(row.remedy));
   }
 }
 
@@ -152,13 +149,8 @@ TEST(Identity, AGroupWithoutAnyOfTheClassesIsRefused) {
 
 TEST(Identity, AClassThatNoPairHasIsRefusedWithWhatIsNearOfAll) {
   const std::vector<Pair> all(std::begin(all_pairs), std::end(all_pairs));
-  const auto refused = [&](const std::string& name) -> std::string {
-    try {
-      check_pose_classes(all, {name});
-    } catch (const InvalidInput& e) {
-      return e.remedy();
-    }
-    return "accepted";
+  const auto refused = [&](const std::string& name) {
+    return error_of([&] { check_pose_classes(all, {name}); }).remedy();
   };
   EXPECT_EQ(refused("rim-rim+tiny"), "accepted");
   EXPECT_EQ(refused("near-parallel-1e-6"), "accepted");

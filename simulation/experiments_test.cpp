@@ -8,6 +8,7 @@
 
 #include "candidates/candidates.hpp"
 #include "properties/files/bytes.hpp"
+#include "reference/error_of_test.hpp"
 #include "reference/invalid_input.hpp"
 #include "simulation/experiment.hpp"
 #include "simulation/experiment_setup.hpp"
@@ -213,12 +214,8 @@ TEST(ExperimentResults, OfAnUnsupportedPairHaveNoFigures) {
 }
 
 TEST(Experiments, AreFoundByName) {
-  try {
-    find_experiment("juggling");
-    FAIL();
-  } catch (const InvalidInput& e) {
-    EXPECT_THAT(e.what(), HasSubstr("must be one of standing, standing-on-box, lying"));
-  }
+  EXPECT_THAT(error_of([] { find_experiment("juggling"); }).remedy(),
+              HasSubstr("must be one of standing, standing-on-box, lying"));
 }
 
 TEST(Resolution, SinkingIsTheSpeedThatCfmLeavesUnderAWeight) {

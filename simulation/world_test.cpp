@@ -3,7 +3,7 @@
 #include <limits>
 #include <utility>
 
-#include "reference/invalid_input.hpp"
+#include "reference/error_of_test.hpp"
 #include "simulation/world_fixture.hpp"
 
 namespace touchstone {
@@ -21,13 +21,7 @@ struct WorldTest : WorldFixture {
     Scene scene;
     scene.bodies = {world_ground(), {"can", Cylinder(0.2, 0.3)}};
     spoil(scene);
-    try {
-      World world(scene, model);
-      world.step();
-    } catch (const InvalidInput& e) {
-      return e.what();
-    }
-    return "accepted";
+    return error_text_of([&] { World(scene, model).step(); });
   }
 };
 

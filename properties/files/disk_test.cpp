@@ -12,6 +12,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "reference/error_of_test.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone {
@@ -60,13 +61,9 @@ TEST_F(WriteFile, AFullDiskLeavesTheOldFileAndNamesTheOption) {
   // The partial file is as full as a disk can be.
   write_file(folder / "a", "old", "--out");
   std::filesystem::create_symlink("/dev/full", folder / "a.partial");
-  try {
-    write_file(folder / "a", "new", "--html");
-    FAIL() << "nothing was thrown";
-  } catch (const InvalidInput& e) {
-    EXPECT_EQ(e.field(), "--html");
-    EXPECT_THAT(e.what(), testing::HasSubstr((folder / "a").string()));
-  }
+  const InvalidInput error = error_of([&] { write_file(folder / "a", "new", "--html"); });
+  EXPECT_EQ(error.field(), "--html");
+  EXPECT_THAT(error.what(), HasSubstr((folder / "a").string()));
   EXPECT_EQ(read(folder / "a"), "old");
   EXPECT_EQ(count(), 1);
 }

@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "reference/invalid_input.hpp"
+#include "reference/error_of_test.hpp"
 #include "simulation/engines/run_engines.hpp"
 #include "simulation/experiment.hpp"
 #include "simulation/experiment_setup.hpp"
@@ -170,12 +170,10 @@ TEST(InsideAnEngine, ResultsDoNotDependOnTheWorkers) {
 }
 
 TEST(InsideAnEngine, SaysThatAnEngineIsNotThere) {
-  try {
-    run_engines({{&find_experiment("rolling")}, {"havok"}, usual_step, 1});
-    FAIL();
-  } catch (const InvalidInput& e) {
-    EXPECT_THAT(e.what(), HasSubstr("must be one of bullet"));
-  }
+  EXPECT_THAT(error_of([] {
+                run_engines({{&find_experiment("rolling")}, {"havok"}, usual_step, 1});
+              }).remedy(),
+              HasSubstr("must be one of bullet"));
 }
 
 TEST(InsideAnEngine, AMotionHasAFrameForEverySixtiethOfASecond) {

@@ -10,6 +10,7 @@
 #include <random>
 
 #include "properties/files/given_text.hpp"
+#include "reference/error_of_test.hpp"
 #include "simulation/scenes/robot_files_fixture.hpp"
 
 namespace touchstone {
@@ -185,12 +186,7 @@ TEST(Mesh, MayHaveAnyNumberOfPointsInsideItsHull) {
 /// Why a robot with this mesh is refused, or that it is not.
 std::string mesh_refusal(const std::string& name, const std::string& content,
                          const std::string& attributes = "") {
-  try {
-    robot_of_mesh(name, content, attributes);
-  } catch (const InvalidInput& e) {
-    return e.what();
-  }
-  return "accepted";
+  return error_text_of([&] { robot_of_mesh(name, content, attributes); });
 }
 
 TEST(Mesh, WithMoreCornersThanABodyMayHaveIsRefused) {

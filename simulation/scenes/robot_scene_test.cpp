@@ -2,6 +2,7 @@
 #include <cmath>
 #include <gmock/gmock.h>
 
+#include "reference/error_of_test.hpp"
 #include "simulation/assembly.hpp"
 #include "simulation/scenes/exact_motion.hpp"
 #include "simulation/scenes/robot_files_fixture.hpp"
@@ -53,12 +54,7 @@ RobotFile two_balls() {
 
 /// Why a scene of the robot is refused.
 std::string robot_refusal(const RobotFile& robot, const RobotMotion& motion = {}) {
-  try {
-    robot_scene(robot, motion);
-  } catch (const InvalidInput& e) {
-    return e.what();
-  }
-  return "accepted";
+  return error_text_of([&] { robot_scene(robot, motion); });
 }
 
 TEST(RobotScene, StandsOnAGroundThatItTouchesWithItsLowestPoint) {

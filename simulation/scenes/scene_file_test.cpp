@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "properties/files/json_schema_test.hpp"
+#include "reference/error_of_test.hpp"
 #include "reference/invalid_input.hpp"
 #include "reference/support.hpp"
 #include "simulation/scenes/need.hpp"
@@ -41,12 +42,7 @@ json small_scene() {
 }
 
 std::string scene_refusal(const json& scene) {
-  try {
-    scene_from_text(scene.dump(), "spoilt.json");
-  } catch (const InvalidInput& e) {
-    return e.what();
-  }
-  return "accepted";
+  return error_text_of([&] { scene_from_text(scene.dump(), "spoilt.json"); });
 }
 
 /// A place in a scene file (JSON pointer), what is put there (JSON), and what is said of that.
