@@ -9,6 +9,7 @@
 #include "cli/command.hpp"
 #include "cli/options.hpp"
 #include "properties/files/disk.hpp"
+#include "properties/named.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/idioms/idiom.hpp"
 #include "reports/test_data/test_data.hpp"
@@ -22,13 +23,19 @@ struct ExportArguments {
   SampleOption sample;
   BarOption bar;
   WorkersOption workers;
-  std::string out = "-", format_name, idiom, engine;
+  std::string out = "-", format_name, idiom, engine, suite_2;
   std::uint64_t limit = 30;
   bool suite = false;
 
+  bool is_suite() const { return suite || !suite_2.empty(); }
+  CsvColumns columns() const {
+    return !suite_2.empty() ? CsvColumns::suite_2 : suite ? CsvColumns::suite : CsvColumns::all;
+  }
+
   Campaign campaign() const {
-    if (suite && (sample.is_narrowed() || sample.count_is_given())) {
-      throw InvalidInput("--suite", "given with --pair, --class, --group or --count",
+    if (is_suite() && (sample.is_narrowed() || sample.count_is_given())) {
+      throw InvalidInput(suite ? "--suite" : "--suite-2",
+                         "given with --pair, --class, --group or --count",
                          "must stand without them: it is always the same configurations");
     }
     Campaign c = suite ? suite_1() : sample.campaign();
@@ -48,7 +55,7 @@ struct ExportArguments {
                            "must end in .jsonl, .csv or .npz, or stand beside --format");
       }
     }
-    return suite ? TestDataFormat::csv : TestDataFormat::json_lines;
+    return is_suite() ? TestDataFormat::csv : TestDataFormat::json_lines;
   }
 };
 
@@ -71,8 +78,7 @@ int run_export_tests(const ExportArguments& options) {
 /// A file is written as a whole or not at all, standard output as it comes.
 int run_export(const ExportArguments& options) {
   const Campaign campaign = options.campaign();
-  const auto writer =
-      test_data_writer(options.format(), options.suite ? CsvColumns::suite : CsvColumns::all);
+  const auto writer = test_data_writer(options.format(), options.columns());
   const bool streams = options.out == "-";
   if (streams && options.format() == TestDataFormat::npz && isatty(STDOUT_FILENO) != 0) {
     throw InvalidInput("--out", "a terminal",
@@ -83,13 +89,18 @@ int run_export(const ExportArguments& options) {
   const Interruption interruption;
   std::string text;
   std::uint64_t count = 0;
-  make_test_data(campaign, [&](const TestDatum& datum) {
+  const auto take = [&](const TestDatum& datum) {
     text += writer->add(datum);
     ++count;
     if (!streams) return;
     std::fwrite(text.data(), 1, text.size(), stdout);
     text.clear();
-  });
+  };
+  if (options.suite_2.empty()) {
+    make_test_data(campaign, take);
+  } else {
+    make_suite_2(named(suite_2_files(), options.suite_2, "--suite-2"), take);
+  }
   if (interrupted()) {
     complain(streams ? "Interrupted: the rest is missing." : "Interrupted: no file was written.");
     return interrupted_exit_code();
@@ -117,6 +128,10 @@ void add_export(Program& program) {
       .value("FORMAT");
   command.flag("--suite", options->suite,
                "touchstone-suite-1, as suite/ has it, by default as CSV");
+  command
+      .text("--suite-2", options->suite_2,
+            "Likewise a file of touchstone-suite-2: smoke, everyday or hard")
+      .value("NAME");
   const Option as = command
                         .text("--as", options->idiom,
                               fmt::format("Write a file of tests for an engine's project: {}",

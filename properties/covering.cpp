@@ -228,6 +228,7 @@ const std::vector<PoseClass>& covering(Pair pair) {
 
 const std::vector<PoseClass>& covering_classes(Pair pair, Coverage coverage) {
   if (coverage == Coverage::suite_1) return covering<2, 1>(pair);
+  if (coverage == Coverage::suite_2) return covering<2, 3>(pair);
   return coverage == Coverage::triples ? covering<3>(pair) : covering<2>(pair);
 }
 

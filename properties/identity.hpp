@@ -98,7 +98,8 @@ Pair parse_pair(std::string_view name, const char* field = "identity.pair");
 enum class Coverage {
   pairs,
   triples,
-  suite_1  ///< pairs, of the arrangements and modifiers that touchstone-suite-1 may have
+  suite_1,  ///< pairs, of the arrangements and modifiers that touchstone-suite-1 may have
+  suite_2   ///< likewise touchstone-suite-2, for which they are called of suites 1 to 3
 };
 
 /// Names of the pose classes of a pair that cover so much, in report order: without those that run

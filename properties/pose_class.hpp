@@ -85,7 +85,8 @@ const std::vector<PoseClass>& old_classes(Pair pair);
 /// A covering array: every sensible combination of `strength` (2 or 3) of an arrangement and
 /// modifiers occurs in at least one class. It begins with the old classes, then has every
 /// arrangement alone and, where it makes sense, aligned, turned and worn, and with each form of
-/// hull; "recorded" is the last. `Coverage::suite_1` is of what there was then.
+/// hull; "recorded" is the last. `Coverage::suite_1` and `suite_2` are of what there
+/// was then.
 const std::vector<PoseClass>& covering_classes(Pair pair, Coverage coverage);
 
 }  // namespace touchstone

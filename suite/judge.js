@@ -1,9 +1,10 @@
-// Reads touchstone-suite-1 and judges answers: node judge.js SUITE.csv[.gz] ANSWERS.jsonl. README.md has its format.
+// Reads touchstone-suite-1 or -2 and judges answers: node judge.js [--float] SUITE.csv[.gz] ANSWERS.jsonl. See README.md.
 // Or from a program: for (const c of read('touchstone-suite-1.csv.gz')) verdict(c, answer), where an answer is
-// {status: 'contact', signed_distance, normal: [x, y, z], points: [{position, depth}, …]} or {status: 'none'}. CC0.
+// {status: 'contact', signed_distance, normal: [x, y, z], points: [{position, depth}, …]} or {status: 'none'}.
+// SPDX-License-Identifier: CC0-1.0
 'use strict';
 const fs = require('fs'), zlib = require('zlib'), {abs, hypot, max, min} = Math;
-const rowCount = 5106;  // of touchstone-suite-1; other test data of Touchstone have further columns
+const rowCount = 5106;  // of touchstone-suite-1; other test data have further columns, suite-2's files a last line with it
 const columns = `id group radius_a half_length_a position_a_x position_a_y position_a_z orientation_a_w orientation_a_x
 orientation_a_y orientation_a_z shape_b size_b_1 size_b_2 size_b_3 size_b_4 position_b_x position_b_y position_b_z
 orientation_b_w orientation_b_x orientation_b_y orientation_b_z signed_distance signed_distance_error signed_distance_low
@@ -16,22 +17,31 @@ function textOf(file) {
   } catch (e) { throw Error(`${file}: cannot be read: ${e.message}`); }
 }
 function read(file) {  // throws an Error with the line and column of what is wrong
-  const [header, ...rows] = textOf(file).trimEnd().split('\n').map(row => row.replace(/\r$/, '').split(','));
-  if (columns.some((name, i) => header[i] !== name))
+  const lines = textOf(file).trimEnd().split('\n').map((row, i) => ({line: i + 1, row: row.replace(/\r$/, '')}));
+  const [header, ...rows] = lines.filter(({row}) => !row.startsWith('#')).map(({line, row}) => Object.assign(row.split(','), {line}));
+  if (columns.some((name, i) => header?.[i] !== name))
     throw Error(`${file}:1: must be the columns of touchstone-suite-1, "id,group,…"; a packed file ends in .gz`);
   const value = (line, name, cell) => {
     if (texts.includes(name) || !columns.includes(name)) return cell;
     if (cell.trim() === '' || Number.isNaN(Number(cell))) throw Error(`${file}:${line}: ${name} is "${cell}": must be a number`);
     return Number(cell);
   };
-  const cases = rows.map((row, i) => {
+  const cases = rows.map(row => {
     if (row.length !== header.length)
-      throw Error(`${file}:${i + 2}: has ${row.length} cells: must have ${header.length}; the file is cut off or damaged`);
-    return Object.fromEntries(row.map((cell, k) => [header[k], value(i + 2, header[k], cell)]));
+      throw Error(`${file}:${row.line}: has ${row.length} cells: must have ${header.length}; the file is cut off or damaged`);
+    return Object.fromEntries(row.map((cell, k) => [header[k], value(row.line, header[k], cell)]));
   });
   if (header.length === columns.length && cases.length !== rowCount)
     throw Error(`${file}: has ${cases.length} configurations: must have ${rowCount}; the file is cut off`);
+  const end = `# ${cases.length} configurations`;
+  if (lines[0].row.startsWith('#') && lines.at(-1).row !== end)
+    throw Error(`${file}:${lines.length}: must be "${end}"; the file is cut off`);
   return cases;
+}
+function inFloat(c) {  // one of touchstone-suite-2, with the limits for a routine in single precision
+  const t = Number(c.float_tolerance), distance = c.signed_distance;
+  return {...c, contact: distance < -t ? 'required' : distance > t ? 'forbidden' : 'optional',
+    min_distance: distance - t, max_distance: distance + t, max_regret: t, min_point_depth: -t};
 }
 function readAnswers(file, cases) {  // cases by id; throws an Error with the line and field of what is wrong
   const isObject = v => typeof v === 'object' && v !== null && !Array.isArray(v);
@@ -77,6 +87,8 @@ function gap(c, n) {  // g(n): clearance along the unit vector n
     const height = dot(inFrame(qB, d), up) - b4 / length, sine = hypot(...b.map((x, i) => x - cosine * up[i]));
     return height * cosine - halfA - rho * sine - 2 * rho * max(0, -cosine);
   }
+  if (c.shape_b === 'convex')
+    return dot(d, n) - halfA - max(...c.vertices_b.split(';').map(v => dot(v.split(' ').map(Number), b)));
   const halfB = {sphere: b1, capsule: b1 + b2 * abs(b[2]), cylinder: b2 * abs(b[2]) + b1 * hypot(b[0], b[1]),
     box: dot([b1, b2, b3], b.map(abs))}[c.shape_b];
   return dot(d, n) - halfA - halfB;
@@ -99,14 +111,18 @@ function verdict(c, answer) {
   return min(...depths) < c.min_point_depth ? 'phantom-points' : 'agree';
 }
 const right = c => `contact ${c.contact}, signed distance ${c.min_distance} to ${c.max_distance}, normal ${c.normal}`;
-module.exports = {read, gap, verdict, right};
+module.exports = {read, inFloat, gap, verdict, right};
 if (require.main === module) {
   const fail = message => { console.error(message); process.exit(2); };
-  if (process.argv.length !== 4) fail('usage: node judge.js SUITE.csv[.gz] ANSWERS.jsonl');
+  const words = process.argv.slice(2), single = words.includes('--float'), files = words.filter(word => word !== '--float');
+  if (files.length !== 2) fail('usage: node judge.js [--float] SUITE.csv[.gz] ANSWERS.jsonl');
   const [cases, answers] = (() => {
     try {
-      const byId = new Map(read(process.argv[2]).map(c => [c.id, c]));
-      return [byId, readAnswers(process.argv[3], byId)];
+      const all = read(files[0]);
+      if (single && !all.every(c => 'float_tolerance' in c))
+        throw Error(`${files[0]}: has no float_tolerance: --float needs a file of touchstone-suite-2`);
+      const byId = new Map(all.map(c => [c.id, single ? inFloat(c) : c]));
+      return [byId, readAnswers(files[1], byId)];
     } catch (e) { return fail(e.message); }
   })();
   for (const answer of answers) {

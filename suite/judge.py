@@ -1,12 +1,13 @@
-"""Reads touchstone-suite-1 and judges answers: judge.py SUITE.csv[.gz] ANSWERS.jsonl
+"""Reads touchstone-suite-1 or -2 and judges answers: judge.py [--float] SUITE.csv[.gz] ANSWERS.jsonl
 
 Or from Python: for case in read("touchstone-suite-1.csv.gz"): verdict(case, answer), where an answer
 is {"status": "contact", "signed_distance": d, "normal": [x, y, z], "points": [{"position": …,
-"depth": …}, …]} or {"status": "none"}. README.md has the format. CC0: do with it what you like."""
+"depth": …}, …]} or {"status": "none"}. README.md has the format.
+SPDX-License-Identifier: CC0-1.0"""
 import gzip, json, sys
 from math import hypot, isfinite, nan
 from zlib import error as ZlibError
-ROW_COUNT = 5106  # of touchstone-suite-1; other test data of Touchstone have further columns
+ROW_COUNT = 5106  # of touchstone-suite-1; other test data have further columns, suite-2's files a last line with it
 COLUMNS = """id group radius_a half_length_a position_a_x position_a_y position_a_z orientation_a_w orientation_a_x
 orientation_a_y orientation_a_z shape_b size_b_1 size_b_2 size_b_3 size_b_4 position_b_x position_b_y position_b_z
 orientation_b_w orientation_b_x orientation_b_y orientation_b_z signed_distance signed_distance_error signed_distance_low
@@ -17,18 +18,26 @@ def text_of(file):
         with (gzip.open if str(file).endswith(".gz") else open)(file, "rb") as stream: return stream.read().decode()
     except (OSError, EOFError, ZlibError, UnicodeDecodeError) as e: raise ValueError(f"{file}: cannot be read: {e}")
 def read(file):  # raises ValueError with the line and column of what is wrong
-    header, *rows = [row.rstrip("\r").split(",") for row in text_of(file).rstrip().split("\n")]
+    lines = [(line, row.rstrip("\r")) for line, row in enumerate(text_of(file).rstrip().split("\n"), 1)]
+    header, *rows = [row.split(",") for _, row in lines if not row.startswith("#")] or [[]]
+    numbers_of_lines = [line for line, row in lines if not row.startswith("#")][1:]
     if header[:len(COLUMNS)] != COLUMNS:
         raise ValueError(f'{file}:1: must be the columns of touchstone-suite-1, "id,group,…"; a packed file ends in .gz')
     def value(line, name, cell):
         try: return cell if name in TEXTS or name not in COLUMNS else float(cell)
         except ValueError: raise ValueError(f'{file}:{line}: {name} is "{cell}": must be a number')
-    for line, row in enumerate(rows, 2):
+    for line, row in zip(numbers_of_lines, rows):
         if len(row) != len(header):
             raise ValueError(f"{file}:{line}: has {len(row)} cells: must have {len(header)}; the file is cut off or damaged")
         yield {name: value(line, name, cell) for name, cell in zip(header, row)}
     if header == COLUMNS and len(rows) != ROW_COUNT:
         raise ValueError(f"{file}: has {len(rows)} configurations: must have {ROW_COUNT}; the file is cut off")
+    if lines[0][1].startswith("#") and lines[-1][1] != f"# {len(rows)} configurations":
+        raise ValueError(f'{file}:{lines[-1][0]}: must be "# {len(rows)} configurations"; the file is cut off')
+def in_float(case):  # one of touchstone-suite-2, with the limits for a routine in single precision
+    true, t = case["signed_distance"], float(case["float_tolerance"])
+    return {**case, "contact": "required" if true < -t else "forbidden" if true > t else "optional",
+            "min_distance": true - t, "max_distance": true + t, "max_regret": t, "min_point_depth": -t}
 def read_answers(file, cases):  # by id; raises ValueError with the line and field of what is wrong
     number = lambda x: x is None or x in ("nan", "inf", "-inf") or type(x) is float
     vector = lambda v: isinstance(v, list) and len(v) == 3 and all(map(number, v))
@@ -71,6 +80,8 @@ def gap(case, n):  # g(n): clearance along the unit vector n
         cosine, height = dot(b, up), dot(in_frame(q_b, d), up) - size[3] / length
         sine = hypot(*(x - cosine * y for x, y in zip(b, up)))
         return height * cosine - half_a - rho * sine - 2 * rho * max(0, -cosine)
+    if shape == "convex":
+        return dot(d, n) - half_a - max(dot(map(float, v.split()), b) for v in case["vertices_b"].split(";"))
     half_b = {"sphere": size[0], "capsule": size[0] + size[1] * abs(b[2]), "box": dot(size, map(abs, b)),
               "cylinder": size[1] * abs(b[2]) + size[0] * hypot(b[0], b[1])}[shape]
     return dot(d, n) - half_a - half_b
@@ -95,10 +106,14 @@ def right(case):
     return "contact {contact}, signed distance {min_distance} to {max_distance}, normal {normal}".format(**case)
 
 if __name__ == "__main__":
-    if len(sys.argv) != 3: sys.exit(print("usage: judge.py SUITE.csv[.gz] ANSWERS.jsonl", file=sys.stderr) or 2)
+    single, files = "--float" in sys.argv[1:], [word for word in sys.argv[1:] if word != "--float"]
+    if len(files) != 2: sys.exit(print("usage: judge.py [--float] SUITE.csv[.gz] ANSWERS.jsonl", file=sys.stderr) or 2)
     try:
-        cases = {case["id"]: case for case in read(sys.argv[1])}
-        answers, wrong = read_answers(sys.argv[2], cases), False
+        cases = {case["id"]: case for case in read(files[0])}
+        if single and not all("float_tolerance" in case for case in cases.values()):
+            raise ValueError(f"{files[0]}: has no float_tolerance: --float needs a file of touchstone-suite-2")
+        if single: cases = {name: in_float(case) for name, case in cases.items()}
+        answers, wrong = read_answers(files[1], cases), False
     except ValueError as e: sys.exit(print(e, file=sys.stderr) or 2)
     for answer in answers:
         case, judged = cases[answer["id"]], verdict(cases[answer["id"]], answer)

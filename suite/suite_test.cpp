@@ -1,5 +1,6 @@
-// touchstone-suite-1: that the committed file is the one that `touchstone export --suite` writes,
-// covers what it says, and that its three readers judge answers as the scores of our reports do.
+// The suites: that the committed files are those that `touchstone export --suite` and `--suite-2`
+// write, cover what they say, and that their three readers judge answers as the scores of our
+// reports do.
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -17,6 +18,7 @@
 
 #include "candidates/candidates.hpp"
 #include "properties/files/answer_json.hpp"
+#include "properties/numbers.hpp"
 #include "reports/test_data/given_answers.hpp"
 #include "reports/test_data/test_data.hpp"
 #include "suite/touchstone_suite.hpp"
@@ -41,8 +43,10 @@ std::string printed_by(const std::string& command) {
   return text;
 }
 
+std::string unpacked(const std::string& file) { return printed_by("gzip -dc " + file); }
+
 const std::string& committed() {
-  static const std::string text = printed_by("gzip -dc " + suite_file);
+  static const std::string text = unpacked(suite_file);
   return text;
 }
 
@@ -74,12 +78,13 @@ TEST(Suite1, IsWhatExportWritesToTheByte) {
   EXPECT_TRUE(text == committed());
 }
 
-TEST(Suite1, HasTheChecksumsThatAreWrittenDown) {
+TEST(Suites, HaveTheChecksumsThatAreWrittenDown) {
   std::ifstream file(TOUCHSTONE_SUITE "/SHA256SUMS");
   const std::string sums{std::istreambuf_iterator<char>(file), {}};
-  EXPECT_EQ(sums, printed_by("cd " TOUCHSTONE_SUITE " && sha256sum touchstone-suite-1.csv.gz && "
-                             "gzip -dc touchstone-suite-1.csv.gz | sha256sum | "
-                             "sed 's/-$/touchstone-suite-1.csv/'"));
+  EXPECT_EQ(sums, printed_by("cd " TOUCHSTONE_SUITE " && for f in touchstone-suite-1 "
+                             "touchstone-suite-2-smoke touchstone-suite-2-everyday "
+                             "touchstone-suite-2-hard; do sha256sum $f.csv.gz; "
+                             "gzip -dc $f.csv.gz | sha256sum | sed \"s/-$/$f.csv/\"; done"));
   std::ifstream readme(TOUCHSTONE_SUITE "/README.md");
   const std::string page{std::istreambuf_iterator<char>(readme), {}};
   EXPECT_THAT(page, testing::HasSubstr(sums.substr(0, 64)));
@@ -196,6 +201,51 @@ TEST(Readers, KnowPlanesWhoseNormalsHaveAnyLength) {
   }
   ASSERT_GT(made.size(), 100u);
   expect_gaps_of_all_readers(made, csv + writer->finish());
+}
+
+// touchstone-suite-2.
+
+std::string suite_2_file(const SuiteFile& file) {
+  return TOUCHSTONE_SUITE "/touchstone-suite-2-" + std::string(file.name) + ".csv.gz";
+}
+
+std::vector<TestDatum> suite_2_data(const SuiteFile& file) {
+  std::vector<TestDatum> result;
+  make_suite_2(file, [&](const TestDatum& datum) { result.push_back(datum); });
+  return result;
+}
+
+TEST(Suite2, IsWhatExportWritesToTheByteAndReadersKnowTheRegretOfAnyNormal) {
+  std::size_t count = 0;
+  for (const SuiteFile& file : suite_2_files()) {
+    const auto made = suite_2_data(file);
+    const auto writer = test_data_writer(TestDataFormat::csv, CsvColumns::suite_2);
+    std::string text;
+    for (const TestDatum& datum : made) text += writer->add(datum);
+    text += writer->finish();
+    EXPECT_TRUE(text == unpacked(suite_2_file(file))) << file.name;
+    expect_gaps_of_all_readers(made, text);
+    count += made.size();
+  }
+  EXPECT_EQ(count, 600u);
+}
+
+TEST(Suite2, IsExactInSinglePrecisionAndHasAllPairsAndKindsOfAnswers) {
+  std::map<std::string, int> contacts, ties, pairs;
+  for (const SuiteFile& file : suite_2_files()) {
+    for (const TestDatum& d : suite_2_data(file)) {
+      Numbers numbers = numbers_of(d.configuration);
+      for (const double* const x : every_number(numbers)) {
+        EXPECT_EQ(static_cast<double>(static_cast<float>(*x)), *x) << to_string(d.identity);
+      }
+      ++contacts[contact_name(d.limits.contact)];
+      ++ties[ties_name(d.truth.ties)];
+      ++pairs[pair_name(d.identity.pose_class.pair)];
+    }
+  }
+  EXPECT_EQ(contacts.size(), 3u);
+  EXPECT_EQ(ties.size(), 3u);
+  for (const auto& [pair, count] : pairs) EXPECT_EQ(count, 100) << pair;
 }
 
 // Answers: those of our own routines, and such as are wrong in a certain way.
@@ -458,6 +508,44 @@ TEST(Verdicts, OfTouchstoneScoreAreThoseOfTheScore) {
   EXPECT_EQ(reported, expected);
 }
 
+/// An answer that is wrong in double precision by what single precision is allowed.
+TEST(Readers, AllowRoutinesInFloatWhatFloatsCost) {
+  const SuiteFile& file = suite_2_files().front();
+  std::ostringstream lines;
+  std::vector<touchstone_suite::Answer> given;
+  std::vector<touchstone_suite::Case> required;
+  std::istringstream in(unpacked(suite_2_file(file)));
+  for (const auto& c : touchstone_suite::read(in)) {
+    if (c.contact != "required" || touchstone_suite::in_float(c).contact != "required") continue;
+    const double distance = c.signed_distance - (c.max_regret + c.float_tolerance) / 2;
+    given.push_back({"contact", distance, c.normal, {{0, 0, 0, -distance}}});
+    required.push_back(c);
+    lines << json{{"id", c.id},
+                  {"status", "contact"},
+                  {"signed_distance", distance},
+                  {"normal", {c.normal[0], c.normal[1], c.normal[2]}},
+                  {"points", {{{"position", {0, 0, 0}}, {"depth", -distance}}}}}
+          << '\n';
+  }
+  ASSERT_GT(given.size(), 10u);
+  const std::string answers_file =
+      (fs::temp_directory_path() / ("suite_float." + std::to_string(getpid()))).string();
+  std::ofstream(answers_file) << lines.str();
+  for (const bool single : {false, true}) {
+    const std::string right = single ? "agree" : "overdeep";
+    for (std::size_t i = 0; i < given.size(); ++i) {
+      const auto& c = required[i];
+      EXPECT_EQ(verdict(single ? in_float(c) : c, given[i]), right) << c.id;
+    }
+    const std::string files = (single ? "--float " : "") + suite_2_file(file) + ' ' + answers_file;
+    const std::vector<std::string> expected(given.size(), right);
+    EXPECT_EQ(verdicts_in(printed_by(TOUCHSTONE_PYTHON " " TOUCHSTONE_SUITE "/judge.py " + files)),
+              expected);
+    EXPECT_EQ(verdicts_in(printed_by("node " TOUCHSTONE_SUITE "/judge.js " + files)), expected);
+  }
+  fs::remove(answers_file);
+}
+
 // Files that are none: a reader says in one line where and what is wrong.
 
 /// Files of a test in a folder of their own.
@@ -519,6 +607,11 @@ TEST(Readers, RefuseASuiteThatIsCutOffDamagedOrNone) {
                  "2: radius_a is \"O.5297436105760894\": must be a number");
   expect_refused(damaged, "suite.csv:2: has 36 cells: must have 35",
                  "2: size_b_1 is \"plane\": must be a number");
+  const std::string second = unpacked(suite_2_file(suite_2_files().front()));
+  const std::string shorter = second.substr(0, second.rfind("cylinder-convex"));
+  expect_refused(shorter, "suite.csv:61: must be \"# 59 configurations\"",
+                 "61: must be \"# 59 configurations\"");
+  expect_refusal("--float " + suite_file, answer, "has no float_tolerance");
   expect_refusal((folder.path / "none.csv").string(), answer, "none.csv: cannot be read: ");
   std::ifstream packed(suite_file, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(packed), {}};

@@ -1,6 +1,7 @@
-// Reads touchstone-suite-1 and judges answers, in C++17; README.md explains the columns and rules.
+// Reads touchstone-suite-1 or -2 and judges answers, in C++17; README.md explains the columns and
+// rules.
 //   for (const auto& c : touchstone_suite::read(stream)) verdict(c, what_my_routine_answers(c));
-// CC0: do with it what you like.
+// SPDX-License-Identifier: CC0-1.0
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -21,6 +22,10 @@ struct Case {  // the columns that judging needs; of the normals the first
   Vector size_a = Vector(2), position_a = Vector(3), position_b = Vector(3), normal = Vector(3);
   Vector orientation_a = Vector(4), orientation_b = Vector(4), size_b = Vector(4);
   double signed_distance, min_distance, max_distance, max_regret, min_point_depth;
+  // Of touchstone-suite-2; `about` says what the case is and why it is hard.
+  std::vector<Vector> vertices_b;
+  double float_tolerance = 0;
+  std::string about;
 };
 struct Answer {
   std::string status;  // "contact", "none", …
@@ -38,6 +43,7 @@ inline const std::string columns =
     "orientation_b_y,orientation_b_z,signed_distance,signed_distance_error,"
     "signed_distance_low,signed_distance_high,contact,min_distance,max_distance,max_regret,"
     "min_point_depth,ties,normal,patch_kind";
+inline const std::string columns_2 = columns + ",vertices_b,float_tolerance,about";
 
 class Row {  // hands out its cells one by one; what is wrong with one is a std::runtime_error
  public:
@@ -73,7 +79,7 @@ class Row {  // hands out its cells one by one; what is wrong with one is a std:
   }
 
  private:
-  std::istringstream cells_, names_{columns}, number_;
+  std::istringstream cells_, names_{columns_2}, number_;
   std::string place_, name_;
 };
 
@@ -86,28 +92,55 @@ inline std::vector<Case> read(std::istream& csv, const std::string& file = "the 
     return true;
   };
   std::vector<Case> cases;
-  std::string line, skipped, normals;
-  if (!next_line(line)) throw std::runtime_error(file + ":1: nothing can be read");
+  std::string line, skipped, normals, vertices, vertex;
+  std::size_t number = 1;
+  bool is_readable = next_line(line);
+  const bool is_2 = is_readable && line.compare(0, 1, "#") == 0;
+  while (is_readable && line.compare(0, 1, "#") == 0) is_readable = next_line(line), ++number;
+  if (!is_readable) throw std::runtime_error(file + ":1: nothing can be read");
   if (line.compare(0, columns.size(), columns) != 0) {
     throw std::runtime_error(file + ":1: must be the columns of touchstone-suite-1, \"" +
                              columns.substr(0, 17) + "…\"; unpack a .gz by gzip -d");
   }
-  const bool is_suite = line == columns;
+  const bool is_suite = line == columns, is_longer = line == columns_2;
+  std::string end = line;
   while (next_line(line)) {
-    Row row(line, file + ':' + std::to_string(cases.size() + 2));
+    end = line, ++number;
+    if (line.compare(0, 1, "#") == 0) continue;
+    Row row(line, file + ':' + std::to_string(number));
     Case& c = cases.emplace_back();
     row >> c.id >> skipped >> c.size_a >> c.position_a >> c.orientation_a >> c.shape_b >>
         c.size_b >> c.position_b >> c.orientation_b >> c.signed_distance >> skipped >> skipped >>
         skipped >> c.contact >> c.min_distance >> c.max_distance >> c.max_regret >>
         c.min_point_depth >> skipped >> normals;
     row.parse(normals.substr(0, normals.find(';')), &c.normal[0], 3) >> skipped;
+    if (!is_longer) continue;
+    row >> vertices >> c.float_tolerance >> c.about;
+    std::istringstream list(c.shape_b == "convex" ? vertices : "");
+    while (std::getline(list, vertex, ';')) {
+      row.parse(vertex, &c.vertices_b.emplace_back(Vector(3))[0], 3);
+    }
+  }
+  const std::string count = std::to_string(cases.size());
+  if (is_2 && end != "# " + count + " configurations") {
+    throw std::runtime_error(file + ':' + std::to_string(number) + ": must be \"# " + count +
+                             " configurations\"; the file is cut off");
   }
   if (csv.bad() || (is_suite && cases.size() != row_count)) {
-    throw std::runtime_error(file + ": has " + std::to_string(cases.size()) +
-                             " configurations: must have " + std::to_string(row_count) +
+    throw std::runtime_error(file + ": has " + count + " configurations: must have " +
+                             std::to_string(row_count) +
                              "; the file is cut off or not touchstone-suite-1");
   }
   return cases;
+}
+
+// One of touchstone-suite-2, with the limits for a routine in single precision.
+inline Case in_float(Case c) {
+  const double t = c.float_tolerance, distance = c.signed_distance;
+  c.contact = distance < -t ? "required" : distance > t ? "forbidden" : "optional";
+  c.min_distance = distance - t, c.max_distance = distance + t;
+  c.max_regret = t, c.min_point_depth = -t;
+  return c;
 }
 
 inline double dot(const Vector& a, const Vector& b) { return (a * b).sum(); }
@@ -130,6 +163,11 @@ inline double gap(const Case& c, const Vector& n) {  // g(n): clearance along th
     const double cosine = dot(b, up), sine = length(b - cosine * up);
     const double height = dot(in_frame(c.orientation_b, d), up) - size[3] / length(xyz);
     return height * cosine - half_a - rho * sine - 2 * rho * std::max(0.0, -cosine);
+  }
+  if (c.shape_b == "convex") {
+    double furthest = -HUGE_VAL;
+    for (const Vector& v : c.vertices_b) furthest = std::max(furthest, dot(v, b));
+    return dot(d, n) - half_a - furthest;
   }
   const double across = c.shape_b == "cylinder" ? std::hypot(b[0], b[1]) : 1;
   const double half_round = size[0] * across + size[1] * std::abs(b[2]);  // a sphere's is size[0]

@@ -7,14 +7,13 @@
 #include <utility>
 #include <variant>
 
-#include "oracle/patch/contact_patch.hpp"
 #include "properties/numbers.hpp"
 #include "properties/pose_class.hpp"
 #include "properties/simplify.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/campaign.hpp"
 #include "reports/reproducer/texts.hpp"
-#include "reports/test_data/test_data.hpp"
+#include "reports/test_data/small_numbers.hpp"
 
 namespace touchstone {
 namespace {
@@ -23,42 +22,6 @@ namespace {
 constexpr std::uint64_t draws = 12;
 /// Steps by which a case is made simpler after its numbers are rounded.
 constexpr int simpler_trials = 60;
-/// A case is left out if its verdict is another one with the tolerance by this factor smaller or
-/// larger: another compiler or processor might find that.
-constexpr double sure = 3;
-
-/// How the bodies meet, which must stay as it is when numbers become smaller.
-struct Meeting {
-  enum class Kind { apart, near, touching, shallow, deep } kind;
-  oracle::Ties ties;
-  oracle::Alignment to_a;
-  std::array<oracle::Alignment, 3> to_b;
-  std::size_t vertices;
-  decltype(std::declval<oracle::ContactPatch>().kind()) patch;
-  bool operator==(const Meeting&) const = default;
-};
-
-Meeting meeting_of(const Configuration& c, const oracle::Truth& truth, double tolerance) {
-  const oracle::Enclosure& distance = truth.signed_distance;
-  using enum Meeting::Kind;
-  const double middle = distance.midpoint();
-  const auto kind = distance.lo == 0 && distance.hi == 0 ? touching
-                    : middle < -smaller_size(c) / 4      ? deep
-                    : middle < -sure * tolerance         ? shallow
-                    : middle > sure * tolerance          ? apart
-                                                         : near;
-  const oracle::OptimalNormal& n = truth.normals.front();
-  return {kind, truth.ties, n.to_a, n.to_b, n.support_b.size(), oracle::contact_patch(c, n).kind()};
-}
-
-/// Of the numbers of both bodies as floats: how far rounding moves their surfaces. A number is
-/// rounded by 2^-24 of it; an orientation turns by no more than 2^-22 then.
-double moved_by_rounding(const Configuration& c) {
-  const auto* const plane = std::get_if<Plane>(&c.b);
-  const double sizes = 2 * larger_size(c) + (plane ? std::abs(plane->unit_displacement()) : 0);
-  return 0x1p-22 * (sizes + c.pose_a.position().norm() + c.pose_b.position().norm());
-}
-
 /// Are all lengths floats? Of orientations only those by quarters and thirds of a turn can be.
 bool in_float(const Configuration& c) {
   const Numbers numbers = numbers_of(c);
@@ -150,38 +113,6 @@ class Chooser {
       }
     }
     return given;
-  }
-
-  static Configuration on_grid(const Configuration& c, bool in_frame_of_b, int bits) {
-    Numbers numbers = numbers_of(c);
-    if (in_frame_of_b) {
-      const Eigen::Quaterniond back = c.pose_b.unit_orientation().conjugate();
-      numbers.position_a = back * (numbers.position_a - numbers.position_b);
-      numbers.orientation_a = back * c.pose_a.unit_orientation();
-      numbers.position_b.setZero();
-      numbers.orientation_b.setIdentity();
-    }
-    const double grid = std::ldexp(1.0, std::ilogb(smaller_size(c)) - bits);
-    // Never the zero with a sign.
-    const auto round = [grid](double x) { return std::round(x / grid) * grid + 0.0; };
-    for (double& size : numbers.sizes) size = std::max(grid, round(size));
-    for (Vec3& vertex : numbers.vertices) vertex = vertex.unaryExpr(round);
-    for (Vec3* v : {&numbers.position_a, &numbers.position_b}) *v = v->unaryExpr(round).eval();
-    for (Eigen::Quaterniond* q : {&numbers.orientation_a, &numbers.orientation_b}) {
-      q->coeffs() *= std::ldexp(1.0, bits / 2) / q->coeffs().cwiseAbs().maxCoeff();
-      q->coeffs() = (q->coeffs().array().round() + 0.0).matrix().eval();
-    }
-    numbers.displacement = round(numbers.displacement);
-    return configuration_of(numbers);
-  }
-
-  /// Moves A by the signed distance: exactly, where the normal lies along an axis of the world.
-  static void touch(Configuration& c) {
-    const oracle::Truth truth = oracle::truth(as_asked(c));
-    const Vec3 n = truth.normals.front().n.unaryExpr(
-        [](double x) { return std::abs(x) < negligible_component ? 0 : x; });
-    const Vec3 by = -truth.signed_distance.midpoint() * n;
-    c.pose_a = Pose(c.pose_a.position() + by, c.pose_a.orientation());
   }
 
   const IdiomQuestion& question_;

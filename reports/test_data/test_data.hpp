@@ -48,6 +48,18 @@ struct TestDatum {
 /// everyday and recorded classes and of arrangements along the world's axes, 15.
 Campaign suite_1();
 
+/// A file of touchstone-suite-2, whose configurations are exact in single precision.
+struct SuiteFile {
+  std::string_view name;  ///< "smoke", "everyday", "hard"
+  std::vector<Group> groups;
+  std::size_t of_each;  ///< configurations of each pair and group
+  bool is_small;        ///< are numbers of few digits preferred?
+};
+const std::vector<SuiteFile>& suite_2_files();
+/// Hands over the configurations of a file in their order. Each is that of its identity with all
+/// numbers rounded to floats, so that the bodies meet as they did; the truth is that of the floats.
+void make_suite_2(const SuiteFile& file, const std::function<void(const TestDatum&)>& take);
+
 /// Those of all configurations that a campaign selects, in report order.
 std::vector<Identity> identities(const Campaign& campaign);
 
@@ -64,7 +76,8 @@ TestDataFormat parse_test_data_format(std::string_view name, const char* field);
 /// Which members a row of CSV has.
 enum class CsvColumns {
   all,
-  suite  ///< without the numbers of the patch, whose last bits differ by processor
+  suite,   ///< without the numbers of the patch, whose last bits differ by processor
+  suite_2  ///< with what single precision, hulls and readers need, beneath a licence
 };
 
 /// Writes test data as text, one piece after the other.

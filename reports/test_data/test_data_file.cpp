@@ -20,6 +20,7 @@
 #include "properties/files/answer_json.hpp"
 #include "properties/files/configuration_json.hpp"
 #include "reference/invalid_input.hpp"
+#include "reports/test_data/small_numbers.hpp"
 #include "reports/test_data/test_data.hpp"
 
 namespace touchstone {
@@ -113,7 +114,7 @@ struct SizesOfB {
   Sizes operator()(const Box& s) const {
     return {s.half_extents().x(), s.half_extents().y(), s.half_extents().z()};
   }
-  Sizes operator()(const Convex&) const { return {}; }  // of no class
+  Sizes operator()(const Convex&) const { return {}; }  // its vertices stand elsewhere
 };
 
 /// "box" of cylinder-box.
@@ -144,7 +145,7 @@ void put_patches(const TestDatum& d, CsvColumns columns, Fields& fields) {
     append(centroids, patch.centroid());
   }
   fields.texts("patch_kind", kinds);
-  if (columns == CsvColumns::suite) return;
+  if (columns != CsvColumns::all) return;
   fields.vectors("patch_area", 1, areas);
   fields.vectors("patch_perimeter", 1, perimeters);
   fields.vectors("patch_centroid", 3, centroids);
@@ -184,6 +185,19 @@ void put_fields(const TestDatum& d, CsvColumns columns, Fields& fields) {
   }
   fields.vectors("normal", 3, normals);
   put_patches(d, columns, fields);
+  if (columns != CsvColumns::suite_2) return;
+  std::vector<std::string> vertices;
+  if (const auto* const convex = std::get_if<Convex>(&c.b)) {
+    for (const Vec3& v : convex->vertices()) {
+      vertices.push_back(fmt::format("{} {} {}", v.x(), v.y(), v.z()));
+    }
+  }
+  fields.text("vertices_b",
+              vertices.empty() ? "none" : fmt::format("{}", fmt::join(vertices, ";")));
+  number("float_tolerance", d.limits.max_regret + moved_by_rounding(c));
+  std::string sentence = d.identity.pose_class.description();
+  std::replace(sentence.begin(), sentence.end(), ',', ';');  // no cell needs quotes
+  fields.text("about", sentence);
 }
 
 /// A row of CSV and the header above it. Numbers are the shortest decimals that give the same
@@ -226,14 +240,23 @@ class CsvWriter : public TestDataWriter {
   std::string add(const TestDatum& d) override {
     CsvRow row;
     put_fields(d, columns_, row);
-    const std::string header = has_header_ ? "" : row.header() + '\n';
+    std::string header = has_header_ ? "" : row.header() + '\n';
+    if (!has_header_ && columns_ == CsvColumns::suite_2) {
+      header = "# SPDX-License-Identifier: CC0-1.0\n" + header;
+    }
     has_header_ = true;
+    ++count_;
     return header + row.row() + '\n';
+  }
+  /// A file of the second suite says how many they are, so that readers know one that is cut off.
+  std::string finish() override {
+    return columns_ == CsvColumns::suite_2 ? fmt::format("# {} configurations\n", count_) : "";
   }
 
  private:
   CsvColumns columns_;
   bool has_header_ = false;
+  int count_ = 0;
 };
 
 /// NumPy's file of named arrays, which numpy.load reads: an archive in the ZIP format, not
