@@ -7,6 +7,7 @@
 #include "candidates/candidates.hpp"
 #include "candidates/npm_engines.hpp"
 #include "cli/command.hpp"
+#include "properties/casts.hpp"
 #include "properties/pose_class.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/terminal.hpp"
@@ -109,12 +110,22 @@ std::string group_list() {
                     "As it occurred in the scenes that come with Touchstone.");
 }
 
+std::string motion_list() {
+  std::string text;
+  for (const CastMotion& motion : cast_motions()) {
+    text += list_entry(motion.name, name_column, motion.description);
+  }
+  return text;
+}
+
 void list_classes(const std::string& pair) {
   std::vector<Pair> pairs(std::begin(all_pairs), std::end(all_pairs));
   if (!pair.empty()) pairs = {parse_pair(pair, "pair")};
   for (const Pair each : pairs) print(fmt::format("{}\n", arrangement_list(each)));
   print_heading("Modifiers, any number of them in any order, as in parallel-side+turned:");
-  print(fmt::format("{}\n{}", modifier_list(pairs), group_list()));
+  print(fmt::format("{}\n{}\n", modifier_list(pairs), group_list()));
+  print_heading("Motions of casts, after an identity, as in cylinder-box/rim-face/1/0/grazing:");
+  print(motion_list());
   for (const Pair each : pairs) {
     print_heading(fmt::format("A report scores {} classes of {}, a campaign {}.",
                               pose_classes(each).size(), pair_name(each),

@@ -173,12 +173,13 @@ TEST_P(FirstTouchOf, RandomSweepsIsProvenFromBothSides) {
   const std::uint64_t count = tried_of_each(60);
   int touches = 0, nevers = 0, undecided = 0;
   for (std::uint64_t i = 0; i < count; ++i) {
-    const GivenSweep given = random_sweep(GetParam(), random);
-    const Configuration& c = given.c;
+    const CastIdentity identity = any_cast(GetParam(), random);
+    const CastQuestion given = make_cast(identity);
+    const Configuration& c = given.configuration;
     const Vec3& sweep = given.sweep;
     const FirstTouch found = first_touch(c, Sweep(sweep));
-    SCOPED_TRACE(testing::Message() << "sweep " << i << ": " << name_of(found.status) << " at "
-                                    << found.fraction.midpoint());
+    SCOPED_TRACE(to_string(identity) + ": " + name_of(found.status) + " at " +
+                 std::to_string(found.fraction.midpoint()));
     const auto distance = [&](const mpq_class& t) { return truth_at(c, sweep, t).signed_distance; };
     const auto second = [&](double t) {
       return audit::enclose({c.a, Sweep(sweep).moved(c.pose_a, t), c.b, c.pose_b});

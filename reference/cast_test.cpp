@@ -201,9 +201,10 @@ TEST_P(CastOf, RandomSweepsIsWithinRoundingOfTheTruth) {
   const std::uint64_t count = tried_of_each(200);
   int touches = 0, nevers = 0;
   for (std::uint64_t i = 0; i < count; ++i) {
-    const auto [c, sweep] = random_sweep(GetParam(), random);
+    const CastIdentity identity = any_cast(GetParam(), random);
+    const auto [c, sweep] = make_cast(identity);
     const Cast found = cast(c, sweep);
-    SCOPED_TRACE(testing::Message() << "sweep " << i << ", touch at " << found.fraction);
+    SCOPED_TRACE(testing::Message() << to_string(identity) << ", touch at " << found.fraction);
     const Configuration there = swept(c, Sweep(sweep), found.fraction);
     const double tolerance = distance_tolerance(there, sweep);
     const oracle::FirstTouch truth = oracle::first_touch(c, Sweep(sweep));

@@ -75,7 +75,8 @@ CastExamination examine_cast(const Configuration& c, const Sweep& sweep,
   CastExamination result{c, sweep, oracle::first_touch(c, sweep), {}};
   if (sweep.turns()) return result;
   for (const Candidate* candidate : candidates) {
-    const std::optional<CastAnswer> answer = ask_cast(*candidate, c, sweep.translation());
+    const CastQuestion question{c, sweep.translation()};
+    const std::optional<CastAnswer> answer = ask_casts(*candidate, {&question, 1}).front();
     if (!answer) continue;
     const CastScore score = answer->cast ? score_cast(c, sweep, result.truth, *answer->cast, bar)
                                          : CastScore{CastOutcome::failed, {}, {}};

@@ -1,8 +1,9 @@
 #include "candidates/host/ask_cast.hpp"
 
-#include <cmath>
+#include <algorithm>
 #include <cstring>
 #include <dlfcn.h>
+#include <iterator>
 #include <map>
 
 #include "candidates/cast.h"
@@ -31,38 +32,61 @@ bool has_casts(const std::string& file) {
   return known[file] = answer.text == "yes";
 }
 
-Cast to_cast(const ts_cast& answer) {
+/// None if it has no cast of this.
+std::optional<CastAnswer> to_answer(const ts_cast& answer) {
+  if (answer.status == TS_CAST_UNSUPPORTED) return std::nullopt;
   const Vec3 normal(answer.normal);
-  if (answer.status == TS_CAST_NEVER) return {CastStatus::never, 1, normal};
+  if (answer.status == TS_CAST_NEVER) return CastAnswer{Cast{CastStatus::never, 1, normal}};
+  const bool is_sane = answer.fraction >= 0 && answer.fraction <= 1 && normal.allFinite();
+  if (!is_sane) return CastAnswer{{}, "not finite"};
   const CastStatus status = answer.fraction == 0 ? CastStatus::from_start : CastStatus::touch;
-  return {status, answer.fraction, normal};
+  return CastAnswer{Cast{status, answer.fraction, normal}};
+}
+
+/// The answers' bytes, one after the other.
+std::string answers_of(const Candidate::Plugin& plugin, std::span<const CastQuestion> questions) {
+  const CastFunction cast = cast_function(plugin.file.string());
+  std::string bytes;
+  for (const auto& [c, sweep] : questions) {
+    const ts_shape a = to_ts_shape(c.a), b = to_ts_shape(c.b);
+    const ts_pose pose_a = to_ts_pose(c.pose_a), pose_b = to_ts_pose(c.pose_b);
+    ts_cast answer{};
+    cast(plugin.index, &a, &b, &pose_a, &pose_b, sweep.data(), &answer);
+    bytes.append(reinterpret_cast<const char*>(&answer), sizeof answer);
+  }
+  return bytes;
 }
 
 }  // namespace
 
-std::optional<CastAnswer> ask_cast(const Candidate& candidate, const Configuration& c,
-                                   const Vec3& sweep) {
-  if (candidate.name == "reference") return CastAnswer{cast(c, sweep)};
+std::vector<std::optional<CastAnswer>> ask_casts(const Candidate& candidate,
+                                                 std::span<const CastQuestion> questions) {
+  std::vector<std::optional<CastAnswer>> answers(questions.size());
+  if (candidate.name == "reference") {
+    for (std::size_t i = 0; i < questions.size(); ++i) {
+      answers[i] = CastAnswer{cast(questions[i].configuration, questions[i].sweep)};
+    }
+    return answers;
+  }
   const Candidate::Plugin* const plugin = candidate.plugin();
-  if (!plugin || !has_casts(plugin->file.string())) return std::nullopt;
-  const auto task = [&] {
-    const ts_shape a = to_ts_shape(c.a), b = to_ts_shape(c.b);
-    const ts_pose pose_a = to_ts_pose(c.pose_a), pose_b = to_ts_pose(c.pose_b);
+  if (questions.empty() || !plugin || !has_casts(plugin->file.string())) return answers;
+  const Contained contained =
+      run_contained([&] { return answers_of(*plugin, questions); }, cast_seconds);
+  const bool has_all = contained.end == Contained::End::returned &&
+                       contained.text.size() == questions.size() * sizeof(ts_cast);
+  if (!has_all && questions.size() == 1) return {CastAnswer{{}, contained.text}};
+  if (!has_all) {  // the half with the one that ended it is halved again
+    const std::size_t half = questions.size() / 2;
+    answers = ask_casts(candidate, questions.first(half));
+    std::ranges::move(ask_casts(candidate, questions.subspan(half)), std::back_inserter(answers));
+    return answers;
+  }
+  for (std::size_t i = 0; i < answers.size(); ++i) {
     ts_cast answer{};
-    cast_function(plugin->file.string())(plugin->index, &a, &b, &pose_a, &pose_b, sweep.data(),
-                                         &answer);
-    return std::string(reinterpret_cast<const char*>(&answer), sizeof answer);
-  };
-  const Contained contained = run_contained(task, cast_seconds);
-  if (contained.end != Contained::End::returned) return CastAnswer{{}, contained.text};
-  ts_cast answer{};
-  if (contained.text.size() != sizeof answer) return CastAnswer{{}, "answered something else"};
-  std::memcpy(&answer, contained.text.data(), sizeof answer);
-  if (answer.status == TS_CAST_UNSUPPORTED) return std::nullopt;
-  const bool is_sane =
-      answer.fraction >= 0 && answer.fraction <= 1 && Vec3(answer.normal).allFinite();
-  if (answer.status == TS_CAST_TOUCH && !is_sane) return CastAnswer{{}, "not finite"};
-  return CastAnswer{to_cast(answer)};
+    std::memcpy(&answer, contained.text.data() + i * sizeof answer, sizeof answer);
+    answers[i] = to_answer(answer);
+  }
+  return answers;
 }
 
 }  // namespace touchstone

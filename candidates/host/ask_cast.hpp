@@ -1,12 +1,20 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "candidates/candidates.hpp"
 #include "reference/cast.hpp"
 
 namespace touchstone {
+
+/// A configuration, and the translation by which A moves, metres in the world's frame.
+struct CastQuestion {
+  Configuration configuration;
+  Vec3 sweep;
+};
 
 /// What a candidate answers to a cast, or why it gave none.
 struct CastAnswer {
@@ -14,9 +22,10 @@ struct CastAnswer {
   std::string failure = {};  ///< "Segmentation fault"; empty for an answer
 };
 
-/// Asks a candidate when A touches B first while it moves by `sweep`: our own routine here, an
-/// engine's plug-in (cast.h) in a process of its own. None if the candidate has no casts.
-std::optional<CastAnswer> ask_cast(const Candidate& candidate, const Configuration& configuration,
-                                   const Vec3& sweep);
+/// Asks a candidate when A touches B first: our own routine here, an engine's plug-in (cast.h) in a
+/// process of its own, which all of them share unless it ends before it has answered. None for what
+/// the candidate has no cast of.
+std::vector<std::optional<CastAnswer>> ask_casts(const Candidate& candidate,
+                                                 std::span<const CastQuestion> questions);
 
 }  // namespace touchstone

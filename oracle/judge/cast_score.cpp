@@ -11,46 +11,6 @@ namespace {
 /// Of truths, relative to the larger size.
 constexpr double judged_width = 1e-15;
 
-/// Distances along the sweep, metres, to 1e-15 of the larger size.
-class DistanceInTime {
- public:
-  DistanceInTime(const Configuration& c, const Sweep& sweep) : c_(c), sweep_(sweep) {}
-
-  double at(double t) const {
-    const Pose turned(c_.pose_a.position(), sweep_.moved(c_.pose_a, t).orientation());
-    const Configuration in_place{c_.a, t > 0 ? turned : c_.pose_a, c_.b, c_.pose_b};
-    return oracle::truth_at(in_place, sweep_.translation(), t, judged_width)
-        .signed_distance.midpoint();
-  }
-
-  /// The smallest within [first, last], by a search that takes it for convex, as it is unless A
-  /// turns (golden section).
-  double smallest(double first, double last) const {
-    constexpr double golden = 0.6180339887498949;
-    constexpr int steps = 30;
-    double best = std::min(at(first), at(last));
-    double left = last - golden * (last - first), right = first + golden * (last - first);
-    double at_left = at(left), at_right = at(right);
-    for (int i = 0; i < steps; ++i) {
-      best = std::min({best, at_left, at_right});
-      if (at_left < at_right) {
-        last = right, right = left, at_right = at_left;
-        left = last - golden * (last - first);
-        at_left = at(left);
-      } else {
-        first = left, left = right, at_left = at_right;
-        right = first + golden * (last - first);
-        at_right = at(right);
-      }
-    }
-    return best;
-  }
-
- private:
-  const Configuration& c_;
-  const Sweep& sweep_;
-};
-
 /// The configuration at t with B at the origin: far from the world's origin, and after a long way,
 /// doubles would place A elsewhere.
 Configuration seen_from_b(const Configuration& c, const Sweep& sweep, double t) {
@@ -64,6 +24,34 @@ Configuration seen_from_b(const Configuration& c, const Sweep& sweep, double t) 
 }
 
 }  // namespace
+
+double DistanceInTime::at(double t) const {
+  const Pose turned(c_.pose_a.position(), sweep_.moved(c_.pose_a, t).orientation());
+  const Configuration in_place{c_.a, t > 0 ? turned : c_.pose_a, c_.b, c_.pose_b};
+  return oracle::truth_at(in_place, sweep_.translation(), t, judged_width)
+      .signed_distance.midpoint();
+}
+
+double DistanceInTime::smallest(double first, double last) const {
+  constexpr double golden = 0.6180339887498949;  // golden section
+  constexpr int steps = 30;
+  double best = std::min(at(first), at(last));
+  double left = last - golden * (last - first), right = first + golden * (last - first);
+  double at_left = at(left), at_right = at(right);
+  for (int i = 0; i < steps; ++i) {
+    best = std::min({best, at_left, at_right});
+    if (at_left < at_right) {
+      last = right, right = left, at_right = at_left;
+      left = last - golden * (last - first);
+      at_left = at(left);
+    } else {
+      first = left, left = right, at_left = at_right;
+      right = first + golden * (last - first);
+      at_right = at(right);
+    }
+  }
+  return best;
+}
 
 Configuration swept(const Configuration& c, const Sweep& sweep, double t) {
   return {c.a, sweep.moved(c.pose_a, t), c.b, c.pose_b};

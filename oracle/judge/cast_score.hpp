@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "oracle/first_touch.hpp"
@@ -11,6 +12,24 @@ namespace touchstone {
 /// The configuration once A has gone the part t of its sweep, rounded to doubles.
 Configuration swept(const Configuration& configuration, const Sweep& sweep, double t);
 
+/// The true signed distance while A moves, metres, to 1e-15 of the larger size.
+class DistanceInTime {
+ public:
+  /// Both have to live as long.
+  DistanceInTime(const Configuration& c, const Sweep& sweep) : c_(c), sweep_(sweep) {}
+  DistanceInTime(Configuration&&, const Sweep&) = delete;
+  DistanceInTime(const Configuration&, Sweep&&) = delete;
+
+  double at(double t) const;
+  /// The smallest within [first, last], by a search that takes it for convex, as it is unless A
+  /// turns.
+  double smallest(double first, double last) const;
+
+ private:
+  const Configuration& c_;
+  const Sweep& sweep_;
+};
+
 /// Judgement of one answered cast, named after the symptom.
 enum class CastOutcome {
   agree,         ///< within the bar
@@ -21,6 +40,9 @@ enum class CastOutcome {
   wrong_normal,  ///< the touch is right, its normal is not
   failed         ///< the candidate gave no answer
 };
+inline constexpr std::array all_cast_outcomes = {
+    CastOutcome::agree,   CastOutcome::late,         CastOutcome::early, CastOutcome::missed,
+    CastOutcome::made_up, CastOutcome::wrong_normal, CastOutcome::failed};
 /// "agree", "late", "early", "missed", "made-up", "wrong-normal", "failed".
 const char* outcome_name(CastOutcome outcome);
 /// "touch", "never", "from-start".

@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "oracle/hull.hpp"
+#include "properties/casts.hpp"
 #include "properties/files/disk.hpp"
 #include "properties/files/given_text.hpp"
 #include "properties/files/strict_json.hpp"
@@ -365,15 +366,16 @@ Subject named(const std::string& name, const std::optional<std::string>& id) {
     return {name, base.description, perturbed(base.configuration, perturbation), base.id,
             base.sweep};
   }
-  if (id && !is_meant_as_file(name)) {
+  if (id && (!is_meant_as_file(name) || is_cast_identity(name))) {
     throw InvalidInput("--id", '"' + *id + '"', "must be of a line of a file");
   }
   if (const auto stability = named_configuration(name)) return *stability;
+  if (is_cast_identity(name)) return subject(parse_cast_identity(name));
   if (is_meant_as_file(name)) {
     throw InvalidInput(
         "input", '"' + name + '"',
         std::string(is_folder(name) ? "must be a file, not a folder" : "there is no such file") +
-            "; an identity reads pair/class/seed/index");
+            "; an identity reads pair/class/seed/index, of a cast also /motion");
   }
   return subject(parse_identity(name));
 }

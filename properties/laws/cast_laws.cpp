@@ -1,0 +1,238 @@
+#include "properties/laws/cast_laws.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <iterator>
+
+#include "oracle/judge/cast_score.hpp"
+#include "properties/moves.hpp"
+
+namespace touchstone {
+namespace {
+
+/// Metres: the bar's, and what rounding of poses and of a fraction in double moves A.
+double tolerance_of(const CastQuestion& q, const Bar& bar) {
+  const Configuration& c = q.configuration;
+  const double lengths =
+      c.pose_a.position().stableNorm() + c.pose_b.position().stableNorm() + q.sweep.stableNorm();
+  return bar.tolerance * error_size(c, bar) + 0x1p-50 * lengths;
+}
+
+std::optional<Violation> violated(const char* failure, double metres, const CastQuestion& q,
+                                  const Bar& bar, const std::string& detail) {
+  return Violation{failure, std::abs(metres) / error_size(q.configuration, bar), detail};
+}
+
+std::optional<Violation> judge_touch(const CastQuestion& q, std::span<const Cast> answers,
+                                     const Bar& bar) {
+  const Cast& answer = answers.front();
+  if (answer.status == CastStatus::never) return std::nullopt;
+  const Sweep sweep(q.sweep);
+  const double left = DistanceInTime(q.configuration, sweep).at(answer.fraction);
+  const double tolerance = tolerance_of(q, bar);
+  const bool is_inside = answer.status == CastStatus::touch && left < -tolerance;
+  if (left <= tolerance && !is_inside) return std::nullopt;
+  return violated(
+      is_inside ? "late" : "early", left, q, bar,
+      fmt::format("at the fraction {} the signed distance is {:.6g} m", answer.fraction, left));
+}
+
+std::optional<Violation> judge_free(const CastQuestion& q, std::span<const Cast> answers,
+                                    const Bar& bar) {
+  const Cast& answer = answers.front();
+  if (answer.status == CastStatus::from_start) return std::nullopt;
+  const bool is_never = answer.status == CastStatus::never;
+  const Sweep sweep(q.sweep);
+  const DistanceInTime distance(q.configuration, sweep);
+  constexpr int parts = 8;
+  for (int i = 0; i < parts + is_never; ++i) {
+    const double t = answer.fraction * i / parts, there = distance.at(t);
+    if (there >= -tolerance_of(q, bar)) continue;
+    return violated(is_never ? "missed" : "late", there, q, bar,
+                    fmt::format("at {} of the sweep, before {}, the signed distance is {:.6g} m", t,
+                                is_never ? "its end" : fmt::format("{}", answer.fraction), there));
+  }
+  return std::nullopt;
+}
+
+/// Where an answer lets A go, as a part of the first question's sweep.
+struct Stop {
+  double t;
+  bool touches;
+};
+Stop stop_of(const Cast& answer, double length) {
+  return {answer.fraction * length, answer.status != CastStatus::never};
+}
+
+/// Whether A may go on from where one answer stops it to where the other does: between them the
+/// bodies come no deeper than rounding and the bar allow, and nowhere in between.
+std::optional<Violation> judge_stops(const CastQuestion& q, Stop one, Stop other, const Bar& bar,
+                                     const std::string& other_name) {
+  const double tolerance = 2 * tolerance_of(q, bar);
+  const auto [earlier, later] = std::minmax(one, other, [](Stop a, Stop b) { return a.t < b.t; });
+  if (!earlier.touches || (later.t - earlier.t) * q.sweep.stableNorm() <= tolerance) {
+    return std::nullopt;
+  }
+  const Sweep sweep(q.sweep);
+  const DistanceInTime distance(q.configuration, sweep);
+  const double start = distance.at(earlier.t), end = distance.at(later.t);
+  double change = start - distance.smallest(earlier.t, later.t);
+  if (later.touches) change = std::max(change, std::abs(start - end));
+  if (change <= tolerance) return std::nullopt;
+  return violated("not-invariant", change, q, bar,
+                  fmt::format("A goes up to {} of the sweep, {} up to {}: signed distances differ "
+                              "by {:.6g} m between these",
+                              one.t, other_name, other.t, change));
+}
+
+constexpr double lengths_asked[] = {0.5, 3};
+
+std::vector<CastQuestion> other_lengths(const CastQuestion& q) {
+  std::vector<CastQuestion> result;
+  for (const double length : lengths_asked) result.push_back({q.configuration, length * q.sweep});
+  return result;
+}
+
+std::optional<Violation> judge_lengths(const CastQuestion& q, std::span<const Cast> answers,
+                                       const Bar& bar) {
+  const Stop whole = stop_of(answers[0], 1);
+  for (std::size_t i = 0; i < std::size(lengths_asked); ++i) {
+    const double length = lengths_asked[i];
+    const Stop other = stop_of(answers[i + 1], length);
+    // What ends before it touches says nothing of what comes later.
+    if (whole.touches != other.touches && (whole.touches ? whole.t > length : other.t > 1)) {
+      continue;
+    }
+    const auto name = fmt::format("with {:g} times the sweep", length);
+    if (auto found = judge_stops(q, whole, other, bar, name)) return found;
+  }
+  return std::nullopt;
+}
+
+std::vector<CastQuestion> exchanged_cast(const CastQuestion& q) {
+  if (pair_of(q.configuration) != Pair::cylinder) return {};
+  return {{exchanged(q.configuration), -q.sweep}};
+}
+const Eigen::Quaterniond& some_turn() {
+  static const Eigen::Quaterniond turn = Eigen::Quaterniond(1, 2, -3, 4).normalized();
+  return turn;
+}
+std::vector<CastQuestion> turned_cast(const CastQuestion& q) {
+  return {{rotated(q.configuration, some_turn()), some_turn() * q.sweep}};
+}
+
+std::optional<Violation> judge_exchanged(const CastQuestion& q, std::span<const Cast> answers,
+                                         const Bar& bar) {
+  return judge_stops(q, stop_of(answers[0], 1), stop_of(answers[1], 1), bar,
+                     "the other body, moving backwards,");
+}
+std::optional<Violation> judge_turned(const CastQuestion& q, std::span<const Cast> answers,
+                                      const Bar& bar) {
+  return judge_stops(q, stop_of(answers[0], 1), stop_of(answers[1], 1), bar,
+                     "with all turned alike");
+}
+
+}  // namespace
+
+const std::vector<CastLaw>& all_cast_laws() {
+  static const std::vector<CastLaw> laws = {
+      {"cast-touch",
+       "At an answered touch the bodies are neither apart nor, but from the start, "
+       "inside each other.",
+       nullptr, judge_touch},
+      {"cast-free",
+       "The bodies do not overlap before an answered touch, nor in a sweep without one.", nullptr,
+       judge_free},
+      {"cast-length",
+       "With half and with three times the sweep A touches in the same place, or "
+       "ends before it.",
+       other_lengths, judge_lengths},
+      {"cast-exchange",
+       "Of two cylinders, the other one moving backwards touches at the same time.", exchanged_cast,
+       judge_exchanged},
+      {"cast-rotation", "With both bodies and the sweep turned alike A touches at the same time.",
+       turned_cast, judge_turned}};
+  return laws;
+}
+
+const CastLaw* find_cast_law(std::string_view name) {
+  const auto found = std::ranges::find(all_cast_laws(), name, &CastLaw::name);
+  return found == all_cast_laws().end() ? nullptr : &*found;
+}
+
+namespace {
+
+constexpr std::uint64_t configurations_of_cast = 20;
+
+/// One after the other of each class and motion.
+std::vector<CastIdentity> casts_to_check(Pair pair, const CheckOptions& options) {
+  std::vector<CastIdentity> result;
+  const std::uint64_t of_class = std::max<std::uint64_t>(1, options.count / configurations_of_cast);
+  for (const PoseClass& c : selected(pair, {options.classes, options.groups})) {
+    for (std::uint64_t i = 0; i < of_class; ++i) {
+      const CastMotion& motion = cast_motions()[result.size() % cast_motions().size()];
+      result.push_back({Identity{c, options.seed, i}, &motion});
+    }
+  }
+  return result;
+}
+
+/// The answers if there are all of them.
+std::optional<std::vector<Cast>> all_answered(std::span<const std::optional<CastAnswer>> answers) {
+  std::vector<Cast> result;
+  for (const auto& answer : answers) {
+    if (!answer || !answer->cast) return std::nullopt;
+    result.push_back(*answer->cast);
+  }
+  return result;
+}
+
+void try_law(CastLawResult& result, const std::vector<CastIdentity>& identities,
+             const std::vector<CastQuestion>& casts, const AnswersCasts& ask, const Bar& bar) {
+  std::vector<CastQuestion> asked;
+  std::vector<std::pair<std::size_t, std::size_t>> of_cast;  // its number, and how many it asks
+  for (std::size_t i = 0; i < casts.size(); ++i) {
+    std::vector<CastQuestion> more;
+    if (result.law->questions) more = result.law->questions(casts[i]);
+    if (more.empty() && result.law->questions) continue;
+    asked.push_back(casts[i]);
+    std::ranges::copy(more, std::back_inserter(asked));
+    of_cast.emplace_back(i, 1 + more.size());
+  }
+  const std::vector<std::optional<CastAnswer>> answers = ask(asked);
+  std::span<const std::optional<CastAnswer>> left = answers;
+  for (const auto& [i, count] : of_cast) {
+    const auto answered = all_answered(left.first(count));
+    left = left.subspan(count);
+    if (!answered) continue;
+    ++result.tried;
+    const auto violation = result.law->judge(casts[i], *answered, bar);
+    if (!violation) continue;
+    ++result.counts[violation->failure];
+    if (result.broken++ > 0) continue;
+    result.identity = to_string(identities[i]);
+    result.violation = violation;
+  }
+}
+
+}  // namespace
+
+std::vector<CastLawResult> check_casts(const AnswersCasts& answers,
+                                       std::span<const CastLaw* const> laws,
+                                       const CheckOptions& options) {
+  std::vector<CastLawResult> results;
+  for (const Pair pair : options.pairs) {
+    const std::vector<CastIdentity> identities = casts_to_check(pair, options);
+    std::vector<CastQuestion> casts;
+    for (const CastIdentity& identity : identities) casts.push_back(make_cast(identity));
+    for (const CastLaw* law : laws) {
+      CastLawResult result{law, pair};
+      try_law(result, identities, casts, answers, options.bar);
+      if (result.tried > 0) results.push_back(result);
+    }
+  }
+  return results;
+}
+
+}  // namespace touchstone
