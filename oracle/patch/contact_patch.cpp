@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 #include "oracle/body.hpp"
 #include "oracle/patch/convex_set.hpp"
@@ -79,16 +78,6 @@ int exponent_out_of_range(const Configuration& c) {
   return std::abs(exponent) <= in_range ? 0 : exponent;
 }
 
-Convex scaled(const Convex& hull, int exponent) {
-  std::vector<Vec3> vertices;
-  for (const Vec3& v : hull.vertices()) {
-    vertices.push_back(v.unaryExpr([&](double x) { return std::scalbn(x, exponent); }));
-  }
-  std::vector<std::vector<int>> faces;
-  for (const Convex::Face& face : hull.faces()) faces.push_back(face.vertices);
-  return {std::move(vertices), std::move(faces), std::scalbn(hull.rounding(), exponent)};
-}
-
 /// As in rounding.hpp, but for a hull: normals name the vertices as given.
 Configuration rounded(const Configuration& c) {
   if (!std::holds_alternative<Convex>(c.b)) return rounded_configuration(c).configuration;
@@ -111,7 +100,7 @@ Configuration scaled(const Configuration& c, int exponent) {
   const auto* const plane = std::get_if<Plane>(&c.b);
   const auto* const hull = std::get_if<Convex>(&c.b);
   const Shape b = plane  ? Plane(plane->unit_normal(), length(plane->unit_displacement()))
-                  : hull ? scaled(*hull, exponent)
+                  : hull ? hull->scaled(exponent)
                          : with_sizes(c.b);
   return {with_sizes(c.a), moved(c.pose_a), b, moved(c.pose_b)};
 }
