@@ -7,7 +7,6 @@
 #include <iterator>
 #include <limits>
 #include <numbers>
-#include <random>
 #include <stdexcept>
 #include <vector>
 
@@ -161,40 +160,31 @@ bool CaseReader::next(Case& c) {
 
 namespace {
 
-class Random {
+class Drawn : public Random {
  public:
-  explicit Random(std::uint64_t index) : random_(index) {}
+  using Random::Random;
 
-  double uniform(double lo, double hi) { return std::uniform_real_distribution(lo, hi)(random_); }
-  double log_uniform(double lo, double hi) { return std::pow(10, uniform(lo, hi)); }
   bool coin() { return uniform(0, 1) < 0.5; }
-  double small_or_none() { return coin() ? 0 : log_uniform(-16, -1); }
-  Eigen::Quaterniond turn() {
-    return Eigen::Quaterniond(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1), uniform(-1, 1))
-        .normalized();
-  }
-
- private:
-  std::mt19937_64 random_;
+  double small_or_none() { return coin() ? 0 : power_of_ten(-16, -1); }
 };
 
 /// Two cylinders whose rims meet along a chosen normal at a chosen depth, so that they are mostly
 /// deepest there. Angles and ratios are log-uniform, because searches fail where one is small.
-class MeetingRims : Random {
+class MeetingRims : Drawn {
  public:
-  using Random::Random;
+  using Drawn::Drawn;
 
   Configuration make() {
-    const double r1 = log_uniform(-3, 1), r2 = coin() ? r1 : r1 * log_uniform(0, 2);
-    const double h1 = r1 * log_uniform(-8, 1), h2 = r2 * log_uniform(-8, 1);
-    const double tilt = coin() ? log_uniform(-9, 0) : std::numbers::pi / 2 - small_or_none();
+    const double r1 = power_of_ten(-3, 1), r2 = coin() ? r1 : r1 * power_of_ten(0, 2);
+    const double h1 = r1 * power_of_ten(-8, 1), h2 = r2 * power_of_ten(-8, 1);
+    const double tilt = coin() ? power_of_ten(-9, 0) : std::numbers::pi / 2 - small_or_none();
     const Vec3 u1(1, 0, 0), u2(std::cos(tilt), std::sin(tilt), 0);
     const Vec3 n = normal(tilt);
     const Vec3 across1 = n - n.dot(u1) * u1, across2 = n - n.dot(u2) * u2;
     // Deeper than this the sum of the rims is less round than the sphere about the origin.
     const double max_depth = std::min(r1 / across1.norm(), r2 / across2.norm());
-    const double part = coin() ? log_uniform(-8, 0) : 1 - log_uniform(-8, 0);
-    const double gap = uniform(0, 1) < 0.1 ? r1 * log_uniform(-9, 0) : -part * max_depth;
+    const double part = coin() ? power_of_ten(-8, 0) : 1 - power_of_ten(-8, 0);
+    const double gap = uniform(0, 1) < 0.1 ? r1 * power_of_ten(-9, 0) : -part * max_depth;
     const Vec3 d = gap * n + r1 * across1.normalized() + r2 * across2.normalized() +
                    std::copysign(h1, n.dot(u1)) * u1 + std::copysign(h2, n.dot(u2)) * u2;
     const auto along = [](const Vec3& axis) { return turn_between(Vec3::UnitZ(), axis); };
@@ -209,7 +199,7 @@ class MeetingRims : Random {
     const double kind = uniform(0, 3);
     const double about = coin() ? uniform(0, 6.3) : small_or_none();
     if (kind < 1) {
-      const double from = log_uniform(-9, 0);
+      const double from = power_of_ten(-9, 0);
       return {std::cos(from), std::sin(from) * std::sin(about), std::sin(from) * std::cos(about)};
     }
     if (kind < 2) {
@@ -224,14 +214,14 @@ class MeetingRims : Random {
 /// Overlapping bodies of which two smooth normals have the same depth, but for a part of it: where
 /// one is wrongly taken for proven, the other may have a better one beside it. Smooth are the
 /// normals of caps and faces, and those at which a side crosses a side or an edge.
-class TiedNormals : Random {
+class TiedNormals : Drawn {
  public:
-  using Random::Random;
+  using Drawn::Drawn;
 
   Configuration make(Pair pair) {
     const Eigen::Quaterniond turn_b = turn();
     const bool nearly_aligned = coin();
-    const Eigen::Quaterniond lean(Eigen::AngleAxisd(log_uniform(-4, 0), turn() * Vec3::UnitX()));
+    const Eigen::Quaterniond lean(Eigen::AngleAxisd(power_of_ten(-4, 0), turn() * Vec3::UnitX()));
     Configuration c{Cylinder(size(), size()),
                     Pose(Vec3::Zero(), nearly_aligned ? lean * turn_b : turn()), shape(pair),
                     Pose(Vec3::Zero(), turn_b)};
@@ -240,9 +230,9 @@ class TiedNormals : Random {
     Vec3 n2 = any(normals);
     for (int i = 0; i < 4 && std::abs(n1.dot(n2)) > almost_parallel; ++i) n2 = any(normals);
     const double width1 = -gap(c, n1), width2 = -gap(c, n2);
-    const double part = coin() ? uniform(0, 1) : log_uniform(-3, 0);
+    const double part = coin() ? uniform(0, 1) : power_of_ten(-3, 0);
     const double depth1 = part * std::min(width1, width2);
-    const double depth2 = depth1 * (1 + (coin() ? 1 : -1) * log_uniform(-6, -1));
+    const double depth2 = depth1 * (1 + (coin() ? 1 : -1) * power_of_ten(-6, -1));
     c.pose_a =
         Pose(displacement(c, n1, width1 - depth1, n2, width2 - depth2), c.pose_a.orientation());
     return c;
@@ -251,7 +241,7 @@ class TiedNormals : Random {
  private:
   static constexpr double almost_parallel = 0.9999;
 
-  double size() { return log_uniform(-1.5, 0.5); }
+  double size() { return power_of_ten(-1.5, 0.5); }
   Shape shape(Pair pair) {
     if (pair == Pair::capsule) return Capsule(size(), size());
     if (pair == Pair::cylinder) return Cylinder(size(), size());
@@ -285,7 +275,7 @@ class TiedNormals : Random {
     const auto within = [&](const Vec3& n) { return uniform(-1, 1) * -gap(c, n); };
     if (std::abs(cosine) > almost_parallel) {  // opposite: the centres lie level
       const Vec3 aside = n1.unitOrthogonal(), other = n1.cross(aside);
-      const double level = (along1 - along2) / 2 * log_uniform(-6, -1);
+      const double level = (along1 - along2) / 2 * power_of_ten(-6, -1);
       return level * n1 + within(aside) * aside + within(other) * other;
     }
     const Vec3 across = n1.cross(n2).normalized();

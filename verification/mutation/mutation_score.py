@@ -202,7 +202,7 @@ class Probe:
         self.program, self.net, self.more = program, net, more
         makers = [p for room in ("properties", "oracle", "oracle/patch")
                   for p in sorted((ROOT / room).glob("*.[ch]pp")) if "test" not in p.name]
-        makers += [HERE / "cases.cpp", HERE / "cases.hpp", REFERENCE / "random_hulls_test.hpp"]
+        makers += [HERE / "cases.cpp", HERE / "cases.hpp", *REFERENCE.glob("random_*_test.hpp")]
         self.cases = work / f"{net}-{digest(count, *makers)}.cases"
         self.known = work / f"{net}.known"
         if not self.cases.exists():
