@@ -183,7 +183,6 @@ class LineSearch {
   static Direction direction(const Piece& piece, const Interval& t);
   OppositeGaps gaps(const Direction& n) const;
   bool is_in_arc(const Direction& n) const;
-  void turn_towards(const Difference& exact, unsigned segment);
 
   unsigned line_;
   Planar d_;

@@ -39,7 +39,6 @@ inline Configuration grown(const Configuration& c) {
 inline Configuration cores_of(const Configuration& c) {
   return {std::get<Cylinder>(core_of(c.a)), c.pose_a, core_of(c.b), c.pose_b};
 }
-inline double roundings_of(const Configuration& c) { return c.a.rounding() + rounding_of(c.b); }
 
 /// Both bodies with roundings that are these parts of their smallest sizes: 1 leaves a core that is
 /// a disc, a segment, a point or a polygon's.

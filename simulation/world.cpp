@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <ode/ode.h>
 #include <utility>
 
@@ -384,14 +383,6 @@ double World::kinetic_energy() const {
   double sum = 0;
   for (const auto& m : state_->moving) {
     sum += touchstone::kinetic_energy(m.state, m.assembly.inertia);
-  }
-  return sum;
-}
-
-double World::potential_energy() const {
-  double sum = 0;
-  for (const auto& m : state_->moving) {
-    sum -= m.assembly.inertia.mass * state_->scene.gravity.dot(m.state.pose.position());
   }
   return sum;
 }

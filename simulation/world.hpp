@@ -95,10 +95,9 @@ class World {
   /// Contact points ignored because their position, normal or depth is not a number.
   std::size_t unusable_points() const;
 
-  double kinetic_energy() const;    ///< J, of the bodies that are not fixed
-  double potential_energy() const;  ///< J, of gravity; zero at the origin
-  Vec3 momentum() const;            ///< kg m/s
-  Vec3 angular_momentum() const;    ///< kg m²/s, about the origin
+  double kinetic_energy() const;  ///< J, of the bodies that are not fixed
+  Vec3 momentum() const;          ///< kg m/s
+  Vec3 angular_momentum() const;  ///< kg m²/s, about the origin
 
  private:
   struct State;

@@ -1,6 +1,5 @@
 #include "properties/motions/motion.hpp"
 
-#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -323,14 +322,6 @@ void require_count(const char* field, const std::string& text,
 }
 
 }  // namespace
-
-std::string pixel_name(const CriticalPose& pose, Decade zoom, int column, int row) {
-  return fmt::format("map/{}/{}/{}/{}", pose.name, zoom.name(), column, row);
-}
-
-std::string step_name(const Motion& motion, int step, int steps) {
-  return fmt::format("sequence/{}/{}/{}", motion.name, step, steps);
-}
 
 std::string perturbed_name(const std::string& base, const Perturbation& perturbation) {
   return base + "@" + to_string(perturbation);

@@ -104,9 +104,6 @@ Configuration pose_at(const Motion& motion, int step, int steps);
 //   map/standing/1e-12/-3/16          a pixel: pose, zoom, column, row
 //   sequence/roll-over-edge/113/200   a step of a motion: its number of how many
 
-std::string pixel_name(const CriticalPose& pose, Decade zoom, int column, int row);
-std::string step_name(const Motion& motion, int step, int steps);
-
 /// The configuration of such a name; none if the text does not begin like one. Throws InvalidInput
 /// that names the wrong part.
 std::optional<Subject> named_configuration(const std::string& text);
