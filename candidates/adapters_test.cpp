@@ -3,7 +3,6 @@
 // called so.
 #include <algorithm>
 #include <cmath>
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "candidates/testing/plain_contacts.hpp"

@@ -1,6 +1,5 @@
 // What engines answer about convex bodies, in contacts whose depth and normal are known on paper;
 // docs/engines.md has it in words. The tests detect a new version that changes it.
-#include <cmath>
 #include <gtest/gtest.h>
 #include <set>
 #include <string>

@@ -4,7 +4,6 @@
 #include "candidates/floor.hpp"
 
 #include <cmath>
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <limits>
 

@@ -18,7 +18,6 @@
 //              answers separate bodies for all pairs.
 // Points       Midway between the two surfaces.
 // Threshold    Passed as the function's margin. Only the plane answers separate bodies.
-#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <map>

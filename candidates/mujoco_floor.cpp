@@ -18,7 +18,6 @@
 #include <mujoco/mujoco.h>
 #include <sstream>
 #include <stdexcept>
-#include <string>
 
 #include "candidates/adapter.hpp"
 #include "candidates/floor.hpp"

@@ -19,7 +19,6 @@
 // Planes       A plane geom has no pose, so that a posed plane is transformed to world coordinates
 //              at every query.
 #include <array>
-#include <cmath>
 #include <limits>
 #include <memory>
 #include <ode/ode.h>

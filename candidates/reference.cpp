@@ -7,7 +7,6 @@
 //              the clearance along the first direction that proves it.
 // Hint         Passed on; it decides between normals whose gaps are within the threshold.
 #include <cstddef>
-#include <optional>
 #include <type_traits>
 #include <utility>
 #include <vector>

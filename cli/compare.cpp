@@ -1,6 +1,5 @@
 #include "reports/compare.hpp"
 
-#include <fmt/format.h>
 #include <memory>
 
 #include "cli/command.hpp"

@@ -1,6 +1,5 @@
 #include "reports/solve.hpp"
 
-#include <fmt/format.h>
 #include <fstream>
 #include <iostream>
 #include <memory>

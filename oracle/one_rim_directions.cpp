@@ -1,6 +1,5 @@
 // Critical directions with one disc: those with closed forms, which are rational or need one square
 // root, and those of a rim against a side or an edge.
-#include <algorithm>
 #include <utility>
 
 #include "oracle/critical_direction.hpp"

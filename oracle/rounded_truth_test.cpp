@@ -1,7 +1,6 @@
 // Truths of rounded bodies: those of their cores, less the roundings, and those of the other shapes
 // that they are.
 #include <gtest/gtest.h>
-#include <random>
 
 #include "oracle/as_hull.hpp"
 #include "oracle/expect_confirmed.hpp"

@@ -1,4 +1,3 @@
-#include <initializer_list>
 
 #include "properties/features.hpp"
 #include "properties/pose_class.hpp"

@@ -1,6 +1,5 @@
 // The promises of the hostile class: it reaches every difficulty that its description names, and
 // makes valid configurations only.
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>

@@ -2,7 +2,6 @@
 // oracle.
 #include "properties/pose_classes_test.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <set>

@@ -1,7 +1,6 @@
 // The exact truth of one configuration.
 #include "oracle/truth.hpp"
 
-#include <limits>
 #include <pybind11/stl.h>
 
 #include "oracle/first_touch.hpp"

@@ -1,6 +1,5 @@
 #include <cmath>
 #include <gtest/gtest.h>
-#include <string>
 #include <vector>
 
 #include "reference/contact_of.hpp"

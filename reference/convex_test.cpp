@@ -2,8 +2,6 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
-#include <numeric>
-#include <string>
 #include <vector>
 
 #include "reference/configuration.hpp"

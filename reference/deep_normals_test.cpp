@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
-#include <limits>
 #include <numbers>
 #include <rapidcheck.h>
 #include <string>

@@ -4,7 +4,6 @@
 // TOUCHSTONE_COUNT times a hundred and more pairs are drawn of each kind; by default 100.
 #include <cmath>
 #include <gtest/gtest.h>
-#include <string>
 
 #include "oracle/hull.hpp"
 #include "oracle/truth.hpp"

@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 #include <limits>
 #include <string>
-#include <vector>
 
 #include "properties/identity.hpp"
 #include "reference/contact_of.hpp"

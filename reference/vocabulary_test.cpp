@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 #include <limits>
 #include <string>
-#include <vector>
 
 #include "reference/contact_of.hpp"
 #include "reference/error_of_test.hpp"

@@ -2,7 +2,6 @@
 #include "reports/search.hpp"
 
 #include <cmath>
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>

@@ -1,6 +1,5 @@
 // The experiments judge contacts; these tests judge the experiments: exact contacts must pass each,
 // and contacts known to be wrong must fail.
-#include <cmath>
 #include <gmock/gmock.h>
 #include <limits>
 

@@ -1,7 +1,6 @@
 #include "simulation/run_experiments.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "candidates/host/progress.hpp"
 #include "candidates/host/worker_processes.hpp"

@@ -1,9 +1,7 @@
 // A command is asked as a plug-in is, whatever it does.
-#include <cmath>
 #include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <thread>
 
 #include "candidates/candidates.hpp"
 #include "candidates/host/candidate_process.hpp"

@@ -29,7 +29,6 @@
 namespace touchstone {
 namespace {
 
-using testing::AnyOf;
 using testing::HasSubstr;
 
 const std::filesystem::path hostile_file = TOUCHSTONE_TEST_PLUGINS "/touchstone-hostile.so";

@@ -1,6 +1,5 @@
 #include "candidates/host/progress.hpp"
 
-#include <cstdio>
 #include <functional>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

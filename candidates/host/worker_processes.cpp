@@ -11,7 +11,6 @@
 #include <map>
 #include <poll.h>
 #include <signal.h>
-#include <stdexcept>
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>

@@ -14,7 +14,6 @@
 #include <cstring>
 #include <fcntl.h>
 #include <limits>
-#include <new>
 #include <pthread.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>

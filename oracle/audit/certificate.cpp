@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <boost/multiprecision/gmp.hpp>
-#include <limits>
 #include <stdexcept>
 #include <string>
 

@@ -1,7 +1,6 @@
 // Properties of the contact patch on every pair and pose class, at every optimal normal.
 #include <cmath>
 #include <gtest/gtest.h>
-#include <string>
 
 #include "oracle/patch/contact_patch.hpp"
 #include "oracle/truth.hpp"

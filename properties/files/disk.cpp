@@ -11,7 +11,6 @@
 #include <sys/file.h>
 #include <system_error>
 #include <unistd.h>
-#include <utility>
 
 #include "reference/invalid_input.hpp"
 

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <map>
-#include <optional>
 #include <ranges>
 #include <set>
 #include <stdexcept>

@@ -4,7 +4,6 @@
 #include <iterator>
 #include <set>
 #include <tuple>
-#include <utility>
 
 #include "oracle/truth.hpp"
 #include "properties/laws/check.hpp"

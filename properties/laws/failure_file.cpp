@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <memory>
-#include <sstream>
-#include <utility>
 
 #include <nlohmann/json.hpp>
 

@@ -3,7 +3,6 @@
 // smaller size, as by gravity. A unique normal stays as it was; if several tie, any other one
 // becomes better by up to twice the step. A routine without memory chooses anew, and its normal
 // flickers from frame to frame; with the hint it should stay.
-#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 

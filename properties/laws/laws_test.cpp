@@ -2,7 +2,6 @@
 // features meet, what is known, with what to start.
 #include <cmath>
 #include <fstream>
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 #include <set>

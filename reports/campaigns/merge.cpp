@@ -6,7 +6,6 @@
 #include <exception>
 #include <fmt/format.h>
 #include <mpi.h>
-#include <utility>
 
 #include <nlohmann/json.hpp>
 

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <chrono>
 #include <fmt/format.h>
-#include <span>
 #include <stdexcept>
 
 #include "candidates/host/interruption.hpp"

@@ -1,8 +1,6 @@
 // The cheapest models that a scene needs.
 #include "simulation/scenes/choose.hpp"
 
-#include <cmath>
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

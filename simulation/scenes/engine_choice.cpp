@@ -1,7 +1,6 @@
 #include "simulation/scenes/engine_choice.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 #include <numeric>
 #include <stdexcept>

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <numeric>
-#include <optional>
 
 #include "oracle/hull.hpp"
 #include "properties/files/given_text.hpp"

@@ -1,12 +1,10 @@
 // Meshes of robots and worlds as their convex hulls, and which meshes are refused.
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <numbers>
 #include <random>
 
 #include "properties/files/given_text.hpp"
@@ -16,7 +14,6 @@
 namespace touchstone {
 namespace {
 
-using testing::Contains;
 using testing::HasSubstr;
 using testing::IsEmpty;
 

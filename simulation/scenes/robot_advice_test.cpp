@@ -1,7 +1,7 @@
 // How robots and worlds move with exact contacts, and the advice for them.
 #include <algorithm>
 #include <cmath>
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include "candidates/candidates.hpp"
 #include "simulation/scenes/choose.hpp"

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <map>
 #include <numbers>
 #include <numeric>
 #include <set>

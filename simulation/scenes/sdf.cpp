@@ -1,14 +1,12 @@
 // The only file that includes libsdformat's headers, which take seconds to compile.
 #include <algorithm>
 #include <boost/property_tree/ptree.hpp>
-#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fmt/format.h>
 #include <numbers>
 #include <sdf/sdf.hh>
 #include <set>
-#include <sstream>
 
 #include "properties/files/disk.hpp"
 #include "properties/files/given_text.hpp"

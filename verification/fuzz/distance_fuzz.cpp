@@ -2,7 +2,6 @@
 // configuration that bytes make must not contradict each other, nor, for one input in
 // `truth_every`, the oracle. fuzz.sh builds and runs it.
 #include <cstdint>
-#include <cstdio>
 #include <cstdlib>
 #include <iostream>
 

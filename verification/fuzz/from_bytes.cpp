@@ -1,6 +1,5 @@
 #include "verification/fuzz/from_bytes.hpp"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 

@@ -2,7 +2,6 @@
 // wrong are seen, and the corpus holds; and so does the hostile class.
 //
 // TOUCHSTONE_COUNT sets how many hostile configurations of each pair are tried; by default 2000.
-#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
