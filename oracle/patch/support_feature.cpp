@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 #include <variant>
 
 #include "oracle/ball.hpp"
@@ -382,11 +383,15 @@ std::vector<Vec3> rounded_part(const Body& shape, const Vec3& centre, const Eige
     core.add_core(shape, centre, axes);
     return core.points;
   };
+  std::vector<Vec3> higher;
   for (int i = 0; i <= rests; ++i) {
     // They decrease as a square, so that the radii of the balls' parts decrease evenly.
     const double root = 1 - static_cast<double>(i) / rests, rest = epsilon * root * root;
+    std::vector<Vec3> points = core_within(std::max(epsilon - rest, nothing * epsilon));
+    if (points == higher) continue;  // with smaller balls
+    higher = std::move(points);
     auto& balls = of_depths.emplace_back();
-    for (const Vec3& p : core_within(std::max(epsilon - rest, nothing * epsilon))) {
+    for (const Vec3& p : higher) {
       balls.push_back({p, radius_of_ball_part(shape.ball_radius, rest)});
     }
   }
