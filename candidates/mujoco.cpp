@@ -35,6 +35,8 @@
 
 namespace {
 
+using touchstone::MujocoScene;
+
 mjtGeom geom_type(ts_shape_kind kind) {
   switch (kind) {
     case TS_CYLINDER:
@@ -72,34 +74,20 @@ std::string asset_of(const ts_shape& other) {
 /// A model with a free cylinder and another geom in the world, both of size one. Its stack and its
 /// room for constraints, which a collision function does not use, are small: the usual ones of many
 /// megabytes are written with zeros, which takes longer than a thousand queries.
-mjModel* make_model(const ts_shape& other) {
-  const std::string xml = "<mujoco><size nstack='10000' njmax='1' nconmax='1'/>" + asset_of(other) +
-                          "<worldbody><geom type='" + type_name(other.kind) +
-                          (other.kind == TS_CONVEX ? "' mesh='b" : "' size='1 1 1") +
-                          "'/><body><freejoint/><geom type='cylinder' size='1 1'/>"
-                          "</body></worldbody></mujoco>";
-  return touchstone::load_mjcf(xml);
+std::string model_xml(const ts_shape& other) {
+  return "<mujoco><size nstack='10000' njmax='1' nconmax='1'/>" + asset_of(other) +
+         "<worldbody><geom type='" + type_name(other.kind) +
+         (other.kind == TS_CONVEX ? "' mesh='b" : "' size='1 1 1") +
+         "'/><body><freejoint/><geom type='cylinder' size='1 1'/>"
+         "</body></worldbody></mujoco>";
 }
 
-struct Scene {
-  explicit Scene(mjModel* made) : model(made), data(mj_makeData(made)) {}
-  ~Scene() {
-    mj_deleteData(data);
-    mj_deleteModel(model);
-  }
-  Scene(const Scene&) = delete;
-  Scene& operator=(const Scene&) = delete;
-
-  mjModel* model;
-  mjData* data;
-};
-
 /// The scene for one kind of shape, made on first use; for a convex body one of its own.
-std::shared_ptr<const Scene> scene_for(const ts_shape& other) {
-  static std::map<ts_shape_kind, std::shared_ptr<const Scene>> scenes;
-  if (other.kind == TS_CONVEX) return std::make_shared<Scene>(make_model(other));
+std::shared_ptr<const MujocoScene> scene_for(const ts_shape& other) {
+  static std::map<ts_shape_kind, std::shared_ptr<const MujocoScene>> scenes;
+  if (other.kind == TS_CONVEX) return std::make_shared<MujocoScene>(model_xml(other));
   auto& scene = scenes[other.kind];
-  if (!scene) scene = std::make_shared<Scene>(make_model(other));
+  if (!scene) scene = std::make_shared<MujocoScene>(model_xml(other));
   return scene;
 }
 
@@ -108,7 +96,7 @@ constexpr int geom_b = 0, geom_a = 1;  // as in the XML
 }  // namespace
 
 struct ts_prepared {
-  std::shared_ptr<const Scene> scene;
+  std::shared_ptr<const MujocoScene> scene;
   ts_shape a, b;
   double threshold;
   mjfCollision collide;
@@ -135,31 +123,25 @@ ts_prepared* prepare(void*, const ts_shape* a, const ts_shape* b, double thresho
   return nullptr;  // no mesh can be made of the vertices
 }
 
-void place(const Scene& scene, std::ptrdiff_t geom, const double* position,
-           const double* orientation) {
-  mju_copy3(scene.data->geom_xpos + 3 * geom, position);
-  mju_quat2Mat(scene.data->geom_xmat + 9 * geom, orientation);
-}
-
 void query(ts_prepared* p, const ts_pose* a, const ts_pose* b, const double*, ts_answer* answer) {
   // A model serves all pairs of the same kinds, so that its sizes are set with every query.
-  const Scene& scene = *p->scene;
+  const MujocoScene& scene = *p->scene;
   mju_copy3(scene.model->geom_size + std::ptrdiff_t{3} * geom_a, p->a.size);
-  place(scene, geom_a, a->position, a->orientation);
+  scene.place(geom_a, a->position, a->orientation);
   if (p->b.kind == TS_PLANE) {
     double orientation[4], normal[3], position[3];
     mju_mulQuat(orientation, b->orientation, p->plane_frame);
     mju_rotVecQuat(normal, p->b.size, b->orientation);
     mju_addScl3(position, b->position, normal, p->b.size[3]);
-    place(scene, geom_b, position, orientation);
+    scene.place(geom_b, position, orientation);
   } else if (p->b.kind == TS_CONVEX) {
     double orientation[4], position[3];
     mju_mulPose(position, orientation, b->position, b->orientation, scene.model->geom_pos,
                 scene.model->geom_quat);
-    place(scene, geom_b, position, orientation);
+    scene.place(geom_b, position, orientation);
   } else {
     mju_copy3(scene.model->geom_size + std::ptrdiff_t{3} * geom_b, p->b.size);
-    place(scene, geom_b, b->position, b->orientation);
+    scene.place(geom_b, b->position, b->orientation);
   }
   mjContact contacts[mjMAXCONPAIR];
   const int count =

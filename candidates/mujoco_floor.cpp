@@ -34,7 +34,7 @@ struct Extent {
   double x, y, base;
 };
 
-mjModel* make_model(const ts_shape& a, const Extent& extent, int count) {
+std::string model_xml(const ts_shape& a, const Extent& extent, int count) {
   std::ostringstream xml;
   xml.precision(17);
   xml << "<mujoco><size nstack='100000' njmax='1' nconmax='1'/><asset><hfield name='b' nrow='"
@@ -43,7 +43,7 @@ mjModel* make_model(const ts_shape& a, const Extent& extent, int count) {
       << "<body><freejoint/><inertial pos='0 0 0' mass='1' diaginertia='1 1 1'/>"
       << "<geom type='cylinder' size='" << a.size[0] << ' ' << a.size[1]
       << "'/></body></worldbody></mujoco>";
-  return touchstone::load_mjcf(xml.str());
+  return xml.str();
 }
 
 }  // namespace
@@ -53,14 +53,7 @@ struct ts_prepared {
       : floor(a, b, count),
         threshold(given_threshold),
         top(b.kind == TS_BOX ? b.size[2] : 0),
-        model(make_model(a, extent_of(b), count)),
-        data(mj_makeData(model)) {}
-  ~ts_prepared() {
-    mj_deleteData(data);
-    mj_deleteModel(model);
-  }
-  ts_prepared(const ts_prepared&) = delete;
-  ts_prepared& operator=(const ts_prepared&) = delete;
+        scene(model_xml(a, extent_of(b), count)) {}
 
   Extent extent_of(const ts_shape& b) const {
     if (b.kind == TS_BOX) return {b.size[0], b.size[1], 2 * b.size[2]};
@@ -70,8 +63,7 @@ struct ts_prepared {
 
   Floor floor;
   double threshold, top;  ///< height of the surface in the frame
-  mjModel* model;
-  mjData* data;
+  touchstone::MujocoScene scene;
 };
 
 namespace {
@@ -83,22 +75,17 @@ ts_prepared* prepare(void*, const ts_shape* a, const ts_shape* b, double thresho
   return nullptr;  // no model can be made of the sizes
 }
 
-void place(mjData& data, std::ptrdiff_t geom, const double* position, const double* orientation) {
-  mju_copy3(data.geom_xpos + 3 * geom, position);
-  mju_quat2Mat(data.geom_xmat + 9 * geom, orientation);
-}
-
 void query(ts_prepared* p, const ts_pose* a, const ts_pose* b, const double*, ts_answer* answer) {
   const ts_pose at = p->floor.at(*a, *b);
   const double up[3] = {0, 0, p->top};
   double position[3];
   mju_rotVecQuat(position, up, at.orientation);
   mju_addTo3(position, at.position);
-  place(*p->data, geom_floor, position, at.orientation);
-  place(*p->data, geom_cylinder, a->position, a->orientation);
+  p->scene.place(geom_floor, position, at.orientation);
+  p->scene.place(geom_cylinder, a->position, a->orientation);
   mjContact contacts[mjMAXCONPAIR];
   const int count = mjCOLLISIONFUNC[mjGEOM_HFIELD][mjGEOM_CYLINDER](
-      p->model, p->data, contacts, geom_floor, geom_cylinder, p->threshold);
+      p->scene.model, p->scene.data, contacts, geom_floor, geom_cylinder, p->threshold);
   touchstone::adapter::begin(*answer);
   for (int i = 0; i < count; ++i) {
     touchstone::adapter::add_point(contacts[i].pos, contacts[i].frame, contacts[i].dist, *answer);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstring>
 #include <memory>
 #include <mujoco/mujoco.h>
@@ -20,5 +21,24 @@ inline mjModel* load_mjcf(const std::string& xml) {
   if (!model) throw std::runtime_error(error);
   return model;
 }
+
+/// A model of MJCF with its data.
+struct MujocoScene {
+  explicit MujocoScene(const std::string& xml) : model(load_mjcf(xml)), data(mj_makeData(model)) {}
+  ~MujocoScene() {
+    mj_deleteData(data);
+    mj_deleteModel(model);
+  }
+  MujocoScene(const MujocoScene&) = delete;
+  MujocoScene& operator=(const MujocoScene&) = delete;
+
+  void place(std::ptrdiff_t geom, const double* position, const double* orientation) const {
+    mju_copy3(data->geom_xpos + 3 * geom, position);
+    mju_quat2Mat(data->geom_xmat + 9 * geom, orientation);
+  }
+
+  mjModel* model;
+  mjData* data;
+};
 
 }  // namespace touchstone
