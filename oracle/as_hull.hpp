@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "oracle/hull.hpp"
 #include "reference/configuration.hpp"
 
@@ -7,14 +9,17 @@
 
 namespace touchstone {
 
-/// Vertex k is at the upper end of axis i if bit i of k is set.
-inline Convex as_hull(const Box& box) {
+/// Of a box; number k is at the upper end of axis i if bit i of k is set.
+inline std::vector<Vec3> corners_of_box(const Vec3& h) {
   std::vector<Vec3> corners;
   for (int k = 0; k < 8; ++k) {
-    const Vec3 signs(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1);
-    corners.emplace_back(signs.cwiseProduct(box.half_extents()));
+    corners.emplace_back(k & 1 ? h.x() : -h.x(), k & 2 ? h.y() : -h.y(), k & 4 ? h.z() : -h.z());
   }
-  return oracle::convex_hull(corners);
+  return corners;
+}
+
+inline Convex as_hull(const Box& box) {
+  return oracle::convex_hull(corners_of_box(box.half_extents()));
 }
 
 /// Precondition: B is a box.

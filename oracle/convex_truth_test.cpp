@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "oracle/as_hull.hpp"
 #include "oracle/hull.hpp"
 #include "oracle/rounding.hpp"
 #include "oracle/truth.hpp"
@@ -25,14 +26,6 @@ using Quaternion = Eigen::Quaterniond;
 
 /// Of gaps in double: a few ulp of the lengths that enter them.
 constexpr double gap_rounding = 1e-14;
-
-std::vector<Vec3> box_corners(const Vec3& h) {
-  std::vector<Vec3> points;
-  for (int i = 0; i < 8; ++i) {
-    points.emplace_back(i & 1 ? h.x() : -h.x(), i & 2 ? h.y() : -h.y(), i & 4 ? h.z() : -h.z());
-  }
-  return points;
-}
 
 double lengths_of(const Configuration& c) {
   return larger_size(c) + (c.pose_a.position() - c.pose_b.position()).norm();
@@ -62,8 +55,7 @@ std::vector<int> box_support(const Pose& pose, const OptimalNormal& normal) {
 }
 
 void expect_the_boxs_truth(const Configuration& box) {
-  const Configuration hull{
-      box.a, box.pose_a, convex_hull(box_corners(std::get<Box>(box.b).half_extents())), box.pose_b};
+  const Configuration hull = with_hull(box);
   const Truth was = truth(box), is = truth(hull);
   EXPECT_EQ(was.signed_distance.lo, is.signed_distance.lo);
   EXPECT_EQ(was.signed_distance.hi, is.signed_distance.hi);
@@ -396,7 +388,7 @@ TEST(ConvexTruth, OfAPrismOfFourHundredSides) {
 
 TEST(ConvexTruth, OfTheSameSolidInTinyAndHugeUnits) {
   for (const double unit : {0x1p-1000, 0x1p-40, 0x1p900}) {
-    std::vector<Vec3> points = box_corners({1, 0.5, 0.25});
+    std::vector<Vec3> points = corners_of_box({1, 0.5, 0.25});
     points.emplace_back(0, 0, 2);
     const auto at = [&](double scale) {
       std::vector<Vec3> scaled_points = points;
@@ -449,10 +441,10 @@ TEST(ConvexTruth, NamesTheEdgeOfAPrismThatIsNearest) {
 }
 
 TEST(ConvexTruth, OfABodyWithFacesToWithinRoundingIsThatOfItsVertices) {
-  const Convex box = convex_hull(box_corners({1, 1, 1}));
+  const Convex box = convex_hull(corners_of_box({1, 1, 1}));
   std::vector<std::vector<int>> faces;
   for (const Convex::Face& face : box.faces()) faces.push_back(face.vertices);
-  std::vector<Vec3> points = box_corners({1, 1, 1});
+  std::vector<Vec3> points = corners_of_box({1, 1, 1});
   points[7].z() = std::nextafter(1.0, 2.0);
   const auto distance = [](const Shape& b) {
     return truth({can, Pose({0, 0, 2.5}, Quaternion(4, 0, 3, 0)), b, Pose()}).signed_distance;

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "oracle/as_hull.hpp"
 #include "oracle/ball.hpp"
 #include "reference/error_of_test.hpp"
 #include "reference/invalid_input.hpp"
@@ -60,14 +61,6 @@ void expect_hull_of(const std::vector<Vec3>& points, const Convex& body) {
   for (const Convex::Edge& edge : body.edges()) {
     EXPECT_FALSE(is_zero(cross(normals[edge.faces[0]], normals[edge.faces[1]]))) << "an edge";
   }
-}
-
-std::vector<Vec3> corners_of_box(const Vec3& h) {
-  std::vector<Vec3> points;
-  for (int i = 0; i < 8; ++i) {
-    points.emplace_back(i & 1 ? h.x() : -h.x(), i & 2 ? h.y() : -h.y(), i & 4 ? h.z() : -h.z());
-  }
-  return points;
 }
 
 std::vector<Vec3> random_points(int count, unsigned seed) {

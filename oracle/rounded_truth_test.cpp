@@ -8,6 +8,7 @@
 #include "oracle/rounding.hpp"
 #include "oracle/truth.hpp"
 #include "properties/identity.hpp"
+#include "reference/random_bodies_test.hpp"
 
 namespace touchstone::oracle {
 namespace {
@@ -54,9 +55,7 @@ TEST_P(RoundedTruthOfPairs, OfAnyRoundingIsConfirmedByTheSecondOracle) {
   });
 }
 
-INSTANTIATE_TEST_SUITE_P(, RoundedTruthOfPairs, testing::ValuesIn(all_pairs), [](const auto& pair) {
-  return std::string(pair_name(pair.param)).substr(std::string("cylinder-").size());
-});
+INSTANTIATE_TEST_SUITE_P(, RoundedTruthOfPairs, testing::ValuesIn(all_pairs), name_of_other);
 
 void expect_one_truth(const Configuration& c, const Configuration& d) {
   const Truth of_c = truth(c), of_d = truth(d);

@@ -16,6 +16,7 @@
 #include "reference/batch.hpp"
 #include "reference/contact_of.hpp"
 #include "reference/points_on_both_test.hpp"
+#include "reference/random_bodies_test.hpp"
 #include "reference/support.hpp"
 
 namespace touchstone {
@@ -106,9 +107,7 @@ TEST_P(Rounded, BodiesHaveAHintsNormalOnlyWhereItTies) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(, Rounded, testing::ValuesIn(all_pairs), [](const auto& pair) {
-  return std::string(pair_name(pair.param)).substr(std::string("cylinder-").size());
-});
+INSTANTIATE_TEST_SUITE_P(, Rounded, testing::ValuesIn(all_pairs), name_of_other);
 
 TEST(RoundedBodies, CylindersExchangedHaveTheOppositeContact) {
   for (const Configuration& c : rounded_bodies(Pair::cylinder)) {

@@ -15,6 +15,7 @@
 #include "properties/simplify.hpp"
 #include "reference/contact_of.hpp"
 #include "reference/invalid_input.hpp"
+#include "reference/random_bodies_test.hpp"
 
 namespace touchstone {
 namespace {
@@ -237,9 +238,7 @@ TEST_P(ReferenceKeeps, EveryLaw) {
   }));
 }
 
-INSTANTIATE_TEST_SUITE_P(, ReferenceKeeps, testing::ValuesIn(all_pairs), [](const auto& pair) {
-  return std::string(pair_name(pair.param)).substr(std::string("cylinder-").size());
-});
+INSTANTIATE_TEST_SUITE_P(, ReferenceKeeps, testing::ValuesIn(all_pairs), name_of_other);
 
 TEST(Check, SimplifiesAFailureToOneThatFailsAlike) {
   CandidateProcess bullet(find_candidate("bullet"), 0);

@@ -10,6 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "properties/files/disk.hpp"
 #include "properties/files/json_schema_test.hpp"
 #include "reference/error_of_test.hpp"
 #include "reference/invalid_input.hpp"
@@ -23,11 +24,6 @@ using nlohmann::json, nlohmann::ordered_json;
 using testing::HasSubstr;
 
 const std::filesystem::path scene_folder = TOUCHSTONE_SCENES;
-
-std::string contents(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 json small_scene() {
   return json::parse(R"({
@@ -426,14 +422,14 @@ TEST(SceneFile, ShippedScenesAreReadAndSayWhatTheyNeed) {
 // TOUCHSTONE_WRITE_SCHEMA=1 writes the file.
 TEST(SceneSchema, DescribesTheNeedsThatAreRead) {
   const std::filesystem::path file = std::filesystem::path(TOUCHSTONE_DOCS) / "scene-schema.json";
-  const std::string found = contents(file),
+  const std::string found = read_file(file, "file"),
                     expected = schema_text(ordered_json::parse(schema_with_needs(found)));
   if (std::getenv("TOUCHSTONE_WRITE_SCHEMA")) std::ofstream(file) << expected;
-  EXPECT_EQ(contents(file), expected);
+  EXPECT_EQ(read_file(file, "file"), expected);
 }
 
 TEST(SceneSchema, AndTheDocsHaveARowForEachNeed) {
-  const std::string docs = contents(std::filesystem::path(TOUCHSTONE_DOCS) / "scenes.md");
+  const std::string docs = read_file(std::filesystem::path(TOUCHSTONE_DOCS) / "scenes.md", "file");
   for (const auto& need : all_needs()) {
     EXPECT_THAT(docs, HasSubstr(std::string("\n| `") + need->name + "` |"));
   }

@@ -18,6 +18,7 @@
 
 #include "candidates/candidates.hpp"
 #include "properties/files/configuration_json.hpp"
+#include "properties/files/disk.hpp"
 #include "properties/files/given_text.hpp"
 #include "properties/files/strict_json.hpp"
 #include "properties/laws/failure_file.hpp"
@@ -45,11 +46,6 @@ std::uint64_t whole_count() {
   return text ? std::strtoull(text, nullptr, 10) : 4000;
 }
 
-std::string contents(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 std::vector<std::string> files_of(const std::filesystem::path& folder, const char* ending) {
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
@@ -57,12 +53,12 @@ std::vector<std::string> files_of(const std::filesystem::path& folder, const cha
   }
   std::sort(files.begin(), files.end());
   std::vector<std::string> texts;
-  for (const auto& file : files) texts.push_back(contents(file));
+  for (const auto& file : files) texts.push_back(read_file(file, "file"));
   return texts;
 }
 
 std::vector<std::string> lines_of(const std::filesystem::path& file) {
-  std::istringstream in(contents(file));
+  std::istringstream in(read_file(file, "file"));
   std::vector<std::string> lines;
   for (std::string line; std::getline(in, line);) lines.push_back(line);
   return lines;

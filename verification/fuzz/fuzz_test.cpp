@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "properties/identity.hpp"
+#include "reference/random_bodies_test.hpp"
 #include "verification/fuzz/disagreement.hpp"
 #include "verification/fuzz/from_bytes.hpp"
 
@@ -130,9 +131,7 @@ TEST_P(HostileAnswers, HoldNoDisagreement) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(, HostileAnswers, testing::ValuesIn(all_pairs), [](const auto& pair) {
-  return std::string(pair_name(pair.param)).substr(std::string("cylinder-").size());
-});
+INSTANTIATE_TEST_SUITE_P(, HostileAnswers, testing::ValuesIn(all_pairs), name_of_other);
 
 }  // namespace
 }  // namespace touchstone
