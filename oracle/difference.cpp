@@ -62,24 +62,16 @@ IntegerRotation exact_rotation(const Eigen::Quaterniond& q) {
   return {scale(q.w()), scale(q.x()), scale(q.y()), scale(q.z())};
 }
 
-void add_segment(Difference& difference, Frame frame, const Integer& half_length) {
-  for (auto& s : difference.segments) {
-    if (parallel(s.frame.axis, frame.axis)) {
-      s.half_length += half_length;
+/// Adds a segment or disc of this size to a list, or to that which is parallel to it.
+template <class Parts, class Part>
+void add(Parts& parts, Integer Part::*size_of, Frame frame, const Integer& size) {
+  for (Part& part : parts) {
+    if (parallel(part.frame.axis, frame.axis)) {
+      part.*size_of += size;
       return;
     }
   }
-  difference.segments.push_back({std::move(frame), half_length});
-}
-
-void add_disc(Difference& difference, Frame frame, const Integer& radius) {
-  for (auto& disc : difference.discs) {
-    if (parallel(disc.frame.axis, frame.axis)) {
-      disc.radius += radius;
-      return;
-    }
-  }
-  difference.discs.push_back({std::move(frame), radius});
+  parts.push_back({std::move(frame), size});
 }
 
 /// Leaves out one of two discs that is a point: the rims of two discs are circles.
@@ -197,19 +189,21 @@ Difference make_difference(const Configuration& c) {
   difference.per_metre = length.factor() * finer;
 
   const auto size = [&](double value) { return Integer(length(value) * finer); };
-  const auto add = [&](const Body& body, const std::array<IntegerVector, 3>& axes) {
+  const auto add_body = [&](const Body& body, const std::array<IntegerVector, 3>& axes) {
     const auto frame = [&](int i) { return Frame{axes[i], axes[(i + 1) % 3], axes[(i + 2) % 3]}; };
     const auto of_core = [&](double outer) { return Integer(size(outer) - size(body.inset)); };
     difference.inflation += size(body.ball_radius);
     for (int i = 0; i < 3; ++i) {
       if (body.half_extents[i] == 0) continue;
       const Integer half = of_core(body.half_extents[i]);
-      if (half != 0 || body.disc_radius > 0) add_segment(difference, frame(i), half);
+      if (half != 0 || body.disc_radius > 0)
+        add(difference.segments, &Difference::Segment::half_length, frame(i), half);
     }
-    if (body.disc_radius > 0) add_disc(difference, frame(2), of_core(body.disc_radius));
+    if (body.disc_radius > 0)
+      add(difference.discs, &Difference::Disc::radius, frame(2), of_core(body.disc_radius));
   };
-  add(body_a, {{{norm, 0, 0}, {0, norm, 0}, {0, 0, norm}}});
-  add(body_b, axes_b);
+  add_body(body_a, {{{norm, 0, 0}, {0, norm, 0}, {0, 0, norm}}});
+  add_body(body_b, axes_b);
   leave_out_point(difference);
   if (body_b.hull) {
     const auto in_frame = [&](const IntegerVector& v) {
