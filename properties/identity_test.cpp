@@ -41,52 +41,42 @@ TEST(Identity, PrintsAndParsesBack) {
 }
 
 TEST(Identity, RefusesWhatItIsNotAndNamesThePart) {
-  const struct {
-    const char* text;
-    const char* field;
-    const char* remedy;
-  } table[] = {
-      {"", "identity", "pair/class/seed/index"},
-      {"cylinder-box", "identity", "pair/class/seed/index"},
-      {"cylinder-box/rim-face/1", "identity", "pair/class/seed/index"},
-      {"cylinder-cone/rim-face/1/2", "identity.pair", "cylinder-sphere"},
-      {"cylinder-sphere/rim-face/1/2", "identity.class", "as rim, side or"},
-      {"cylinder-box/paralel-side/1/2", "identity.class", "as parallel-side"},
-      {"cylinder-box/hostile+turned/1/2", "identity.class", "it has everything already"},
-      {"cylinder-box/rim-face+turned/1/2", "identity.class", "turned at random already"},
-      {"cylinder-box/rim-face+tilted-1e-3/1/2", "identity.class", "random angle already"},
-      {"cylinder-box/rim-face+deep/1/2", "identity.class", "another feature"},
-      {"cylinder-box/side-on-face+shallow/1/2", "identity.class", "it is so already"},
-      {"cylinder-capsule/rim-end+apart/1/2", "identity.class", "it is so already"},
-      {"cylinder-capsule/rim-end+shallow/1/2", "identity.class", "another feature"},
-      {"cylinder-box/touching+apart/1/2", "identity.class", "touch already"},
-      {"cylinder-box/coaxial+deep/1/2", "identity.class", "centres or axes"},
-      {"cylinder-box/touching-tilted+tilted-1e-3/1/2", "identity.class", "tilted already"},
-      {"cylinder-capsule/general+plate/1/2", "identity.class", "neither body is a box"},
-      {"cylinder-plane/general+uneven/1/2", "identity.class", "a plane has no size"},
-      {"cylinder-box/general+needles/1/2", "identity.class", "no cylinder or capsule"},
-      {"cylinder-box/contained+deep/1/2", "identity.class", "it is so already"},
-      {"cylinder-box/contained+apart/1/2", "identity.class", "within each other"},
-      {"cylinder-box/rim-face+worn/1/2", "identity.class", "turned at random already"},
-      {"cylinder-box/general+tiny+huge/1/2", "identity.class", "both tiny and huge"},
-      {"cylinder-box/general+tiny+tiny/1/2", "identity.class", "both tiny and tiny"},
-      {"cylinder-box/general+trned/1/2", "identity.class", "such as turned"},
-      {"cylinder-box/general+/1/2", "identity.class", "such as"},
-      {"cylinder-box/general++tiny/1/2", "identity.class", "such as"},
-      {"cylinder-box/+tiny/1/2", "identity.class", "must begin with an arrangement"},
-      {"cylinder-box//1/2", "identity.class", "must begin with an arrangement"},
-      {"cylinder-box/rim-face/-1/2", "identity.seed", "whole number"},
-      {"cylinder-box/rim-face/1/2x", "identity.index", "whole number"},
-      {"cylinder-box/rim-face/1/2/3", "identity.index", "whole number"},
-      {"cylinder-box/rim-face/1/", "identity.index", "whole number"},
-      {"cylinder-box/rim-face/1/99999999999999999999", "identity.index", "whole number"},
-  };
-  for (const auto& row : table) {
-    SCOPED_TRACE(row.text);
-    const InvalidInput error = error_of([&] { parse_identity(row.text); });
-    EXPECT_EQ(error.field(), row.field);
-    EXPECT_THAT(error.remedy(), HasSubstr(row.remedy));
-  }
+  expect_refusals(
+      {{"", "identity", "pair/class/seed/index"},
+       {"cylinder-box", "identity", "pair/class/seed/index"},
+       {"cylinder-box/rim-face/1", "identity", "pair/class/seed/index"},
+       {"cylinder-cone/rim-face/1/2", "identity.pair", "cylinder-sphere"},
+       {"cylinder-sphere/rim-face/1/2", "identity.class", "as rim, side or"},
+       {"cylinder-box/paralel-side/1/2", "identity.class", "as parallel-side"},
+       {"cylinder-box/hostile+turned/1/2", "identity.class", "it has everything already"},
+       {"cylinder-box/rim-face+turned/1/2", "identity.class", "turned at random already"},
+       {"cylinder-box/rim-face+tilted-1e-3/1/2", "identity.class", "random angle already"},
+       {"cylinder-box/rim-face+deep/1/2", "identity.class", "another feature"},
+       {"cylinder-box/side-on-face+shallow/1/2", "identity.class", "it is so already"},
+       {"cylinder-capsule/rim-end+apart/1/2", "identity.class", "it is so already"},
+       {"cylinder-capsule/rim-end+shallow/1/2", "identity.class", "another feature"},
+       {"cylinder-box/touching+apart/1/2", "identity.class", "touch already"},
+       {"cylinder-box/coaxial+deep/1/2", "identity.class", "centres or axes"},
+       {"cylinder-box/touching-tilted+tilted-1e-3/1/2", "identity.class", "tilted already"},
+       {"cylinder-capsule/general+plate/1/2", "identity.class", "neither body is a box"},
+       {"cylinder-plane/general+uneven/1/2", "identity.class", "a plane has no size"},
+       {"cylinder-box/general+needles/1/2", "identity.class", "no cylinder or capsule"},
+       {"cylinder-box/contained+deep/1/2", "identity.class", "it is so already"},
+       {"cylinder-box/contained+apart/1/2", "identity.class", "within each other"},
+       {"cylinder-box/rim-face+worn/1/2", "identity.class", "turned at random already"},
+       {"cylinder-box/general+tiny+huge/1/2", "identity.class", "both tiny and huge"},
+       {"cylinder-box/general+tiny+tiny/1/2", "identity.class", "both tiny and tiny"},
+       {"cylinder-box/general+trned/1/2", "identity.class", "such as turned"},
+       {"cylinder-box/general+/1/2", "identity.class", "such as"},
+       {"cylinder-box/general++tiny/1/2", "identity.class", "such as"},
+       {"cylinder-box/+tiny/1/2", "identity.class", "must begin with an arrangement"},
+       {"cylinder-box//1/2", "identity.class", "must begin with an arrangement"},
+       {"cylinder-box/rim-face/-1/2", "identity.seed", "whole number"},
+       {"cylinder-box/rim-face/1/2x", "identity.index", "whole number"},
+       {"cylinder-box/rim-face/1/2/3", "identity.index", "whole number"},
+       {"cylinder-box/rim-face/1/", "identity.index", "whole number"},
+       {"cylinder-box/rim-face/1/99999999999999999999", "identity.index", "whole number"}},
+      parse_identity);
 }
 
 TEST(Identity, HostileIsKnownByNameButNotAmongAllClasses) {

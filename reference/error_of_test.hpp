@@ -1,6 +1,8 @@
 #pragma once
 
+#include <gmock/gmock.h>
 #include <string>
+#include <vector>
 
 #include "reference/invalid_input.hpp"
 
@@ -22,6 +24,19 @@ template <class Call>
 std::string error_text_of(const Call& call) {
   const InvalidInput e = error_of(call);
   return e.field() == "accepted" ? e.field() : e.what();
+}
+
+/// A text that is refused, the part of it that is named, and what the remedy says.
+struct Refused {
+  const char *text, *field, *remedy;
+};
+template <class Parse>
+void expect_refusals(const std::vector<Refused>& texts, const Parse& parse) {
+  for (const auto& [text, field, remedy] : texts) {
+    const InvalidInput error = error_of([&, given = text] { parse(given); });
+    EXPECT_EQ(error.field(), field) << text;
+    EXPECT_THAT(error.remedy(), testing::HasSubstr(remedy)) << text;
+  }
 }
 
 }  // namespace touchstone

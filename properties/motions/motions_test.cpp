@@ -95,24 +95,15 @@ TEST(Perturbation, PrintsAndParsesBack) {
 }
 
 TEST(Perturbation, RefusesWhatItIsNotAndNamesThePart) {
-  const struct {
-    const char* text;
-    const char* field;
-    const char* remedy;
-  } table[] = {{"", "perturbation", "1e-8/1/4"},
-               {"1e-8/1", "perturbation", "1e-8/1/4"},
-               {"1e-17/1/4", "perturbation.amplitude", "1e-16"},
-               {"1e-08/1/4", "perturbation.amplitude", "1e-16"},
-               {"0.1/1/4", "perturbation.amplitude", "1e-1"},
-               {"1e-8/x/4", "perturbation.seed", "whole number"},
-               {"1e-8/1/-4", "perturbation.number", "whole number"},
-               {"1e-8/1/4/5", "perturbation.number", "whole number"}};
-  for (const auto& row : table) {
-    SCOPED_TRACE(row.text);
-    const InvalidInput error = error_of([&] { parse_perturbation(row.text); });
-    EXPECT_EQ(error.field(), row.field);
-    EXPECT_THAT(error.remedy(), HasSubstr(row.remedy));
-  }
+  expect_refusals({{"", "perturbation", "1e-8/1/4"},
+                   {"1e-8/1", "perturbation", "1e-8/1/4"},
+                   {"1e-17/1/4", "perturbation.amplitude", "1e-16"},
+                   {"1e-08/1/4", "perturbation.amplitude", "1e-16"},
+                   {"0.1/1/4", "perturbation.amplitude", "1e-1"},
+                   {"1e-8/x/4", "perturbation.seed", "whole number"},
+                   {"1e-8/1/-4", "perturbation.number", "whole number"},
+                   {"1e-8/1/4/5", "perturbation.number", "whole number"}},
+                  parse_perturbation);
 }
 
 // The bound that amplification is measured against holds for the truth, in every class.
@@ -221,28 +212,17 @@ TEST(StabilityName, KeepsItsBitsFromVersionToVersion) {
 
 TEST(StabilityName, RefusesWhatItIsNotAndNamesThePart) {
   EXPECT_FALSE(named_configuration("cylinder-box/rim-face/1/0"));
-  const struct {
-    const char* text;
-    const char* field;
-    const char* remedy;
-  } table[] = {
-      {"map", "map", "map/standing/1e-12/-3/16"},
-      {"map/standing/1e-12/3", "map", "map/standing/1e-12/-3/16"},
-      {"map/leaning/1e-12/3/4", "map.pose", "standing"},
-      {"map/standing/1e-20/3/4", "map.zoom", "1e-16"},
-      {"map/standing/1e-12/17/4", "map.column", "from -16 to 16"},
-      {"map/standing/1e-12/3/4.5", "map.row", "from -16 to 16"},
-      {"sequence/roll-over-edge/3", "sequence", "113/200"},
-      {"sequence/fall/3/4", "sequence.motion", "roll-over-edge"},
-      {"sequence/roll-over-edge/5/4", "sequence.step", "from 0 to 4"},
-      {"sequence/roll-over-edge/0/0", "sequence.steps", "from 1"},
-  };
-  for (const auto& row : table) {
-    SCOPED_TRACE(row.text);
-    const InvalidInput error = error_of([&] { named_configuration(row.text); });
-    EXPECT_EQ(error.field(), row.field);
-    EXPECT_THAT(error.remedy(), HasSubstr(row.remedy));
-  }
+  expect_refusals({{"map", "map", "map/standing/1e-12/-3/16"},
+                   {"map/standing/1e-12/3", "map", "map/standing/1e-12/-3/16"},
+                   {"map/leaning/1e-12/3/4", "map.pose", "standing"},
+                   {"map/standing/1e-20/3/4", "map.zoom", "1e-16"},
+                   {"map/standing/1e-12/17/4", "map.column", "from -16 to 16"},
+                   {"map/standing/1e-12/3/4.5", "map.row", "from -16 to 16"},
+                   {"sequence/roll-over-edge/3", "sequence", "113/200"},
+                   {"sequence/fall/3/4", "sequence.motion", "roll-over-edge"},
+                   {"sequence/roll-over-edge/5/4", "sequence.step", "from 0 to 4"},
+                   {"sequence/roll-over-edge/0/0", "sequence.steps", "from 1"}},
+                  named_configuration);
 }
 
 TEST(Motion, IsContinuous) {
