@@ -278,13 +278,18 @@ TEST(DeepNormals, OfCapsThatTheirRimHoldsHaveTheLargestGap) {
   EXPECT_EQ(contradicted, 0);
 }
 
-TEST(DeepNormals, OfRimsThatOverlapDeeplyAreNotMissed) {
-  for (const char* name : {"general+deep", "general+deep+coin", "general+deep+needle", "rim-rim"}) {
+void expect_no_larger_gap(Pair pair, const std::vector<const char*>& classes) {
+  for (const char* name : classes) {
     for (std::uint64_t i = 0; i < 1000; ++i) {
-      const Configuration x = make_configuration({Pair::cylinder, name, 3, i});
+      const Configuration x = make_configuration({pair, name, 3, i});
       EXPECT_FALSE(has_larger_gap(x, signed_distance(x).value)) << name << " " << i;
     }
   }
+}
+
+TEST(DeepNormals, OfRimsThatOverlapDeeplyAreNotMissed) {
+  expect_no_larger_gap(Pair::cylinder,
+                       {"general+deep", "general+deep+coin", "general+deep+needle", "rim-rim"});
 }
 
 /// Cylinders of any sizes and axes whose rims meet at a normal, where the gap has a maximum.
@@ -315,13 +320,9 @@ TEST(DeepNormals, OfRimsAreNeverTooDeepForAMaximum) {
 }
 
 TEST(DeepNormals, OfRimsOnABoxesEdgeAreNotMissed) {
-  for (const char* name : {"parallel+tilted-1e-2", "parallel+tilted-1e-4", "cap-on-face-offset",
-                           "coaxial+tilted-1e-4+aligned+huge+not-quite-unit"}) {
-    for (std::uint64_t i = 0; i < 1000; ++i) {
-      const Configuration x = make_configuration({Pair::box, name, 3, i});
-      EXPECT_FALSE(has_larger_gap(x, signed_distance(x).value)) << name << " " << i;
-    }
-  }
+  expect_no_larger_gap(Pair::box,
+                       {"parallel+tilted-1e-2", "parallel+tilted-1e-4", "cap-on-face-offset",
+                        "coaxial+tilted-1e-4+aligned+huge+not-quite-unit"});
 }
 
 /// The largest gap's normal in the folded frame.

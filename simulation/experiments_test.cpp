@@ -9,6 +9,7 @@
 #include "properties/files/bytes.hpp"
 #include "reference/error_of_test.hpp"
 #include "reference/invalid_input.hpp"
+#include "simulation/each_world.hpp"
 #include "simulation/experiment.hpp"
 #include "simulation/experiment_setup.hpp"
 #include "simulation/run_experiments.hpp"
@@ -52,11 +53,7 @@ std::vector<std::string> names() {
   }
   return result;
 }
-INSTANTIATE_TEST_SUITE_P(, EveryExperiment, testing::ValuesIn(names()), [](const auto& name) {
-  std::string plain = name.param;
-  std::erase(plain, '-');
-  return plain;
-});
+INSTANTIATE_TEST_SUITE_P(, EveryExperiment, testing::ValuesIn(names()), EachWorld::plain_name);
 
 TEST(Experiments, RollingKeepsToSemiImplicitEuler) {
   const ExperimentResult result = run_one("rolling", "reference");

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "reference/error_of_test.hpp"
+#include "simulation/each_world.hpp"
 #include "simulation/engines/run_engines.hpp"
 #include "simulation/experiment.hpp"
 #include "simulation/experiment_setup.hpp"
@@ -92,11 +93,7 @@ TEST_P(InsideTheEngines, ACanSlidesAsFarAsOnPaperWithOurContacts) {
 
 INSTANTIATE_TEST_SUITE_P(, InsideTheEngines,
                          testing::Values("bullet", "bullet-float", "ode", "mujoco"),
-                         [](const auto& engine) {
-                           std::string plain = engine.param;
-                           std::erase(plain, '-');
-                           return plain;
-                         });
+                         EachWorld::plain_name);
 
 /// What an engine's own contacts get wrong, by more than this error, and ours mend: alone, or once
 /// the solver is at its best.
