@@ -11,6 +11,7 @@
 #include "cli/command.hpp"
 #include "cli/options.hpp"
 #include "properties/files/disk.hpp"
+#include "properties/laws/cast_laws.hpp"
 #include "properties/laws/failure_file.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/check_output.hpp"
@@ -38,7 +39,9 @@ struct CheckArguments {
 
   CheckOptions check() const {
     CheckOptions c;
-    for (const auto& name : laws) add_once(c.laws, &find_law(name));
+    for (const auto& name : laws) {
+      if (!find_cast_law(name)) add_once(c.laws, &find_law(name));
+    }
     if (laws.empty()) {
       for (const Law& law : all_laws()) c.laws.push_back(&law);
     }
@@ -54,6 +57,16 @@ struct CheckArguments {
     c.workers = workers.get();
     c.by_features = !save.empty() || !known.empty();  // which takes twice as long
     return c;
+  }
+
+  /// None beside --known, which knows failures that were saved: those of casts are not.
+  std::vector<const CastLaw*> cast_laws() const {
+    std::vector<const CastLaw*> chosen;
+    if (laws.empty() && !known.empty()) return chosen;
+    for (const CastLaw& law : all_cast_laws()) {
+      if (laws.empty() || std::ranges::count(laws, law.name) > 0) chosen.push_back(&law);
+    }
+    return chosen;
   }
 
   Search search() const {
@@ -164,6 +177,18 @@ std::vector<LawResult> check_laws(const Candidate* candidate, const CheckOptions
   return results;
 }
 
+std::vector<CastLawResult> check_cast_laws(const Candidate* candidate, const CheckOptions& checks,
+                                           std::span<const CastLaw* const> laws,
+                                           const Teller& teller) {
+  if (!candidate || laws.empty()) return {};
+  const auto ask = [&](std::span<const CastQuestion> casts) {
+    return ask_casts(*candidate, casts);
+  };
+  std::vector<CastLawResult> results = check_casts(ask, laws, checks);
+  teller.tell(cast_laws_text(results, candidate->name, standard_output()));
+  return results;
+}
+
 int run_search(const CheckArguments& options) {
   if (!options.save.empty()) check_writable(options.save, "--save");
   const Search wanted = options.search();
@@ -200,7 +225,14 @@ int run_check(const CheckArguments& options) {
   CheckResult result{candidate ? candidate->name : "",
                      replay_all(options.corpus, "--corpus", candidate, teller)};
   result.known = replay_all(options.known, "--known", candidate, teller);
-  result.laws = check_laws(candidate, checks, still_failing(result.known), teller);
+  if (!checks.laws.empty()) {
+    result.laws = check_laws(candidate, checks, still_failing(result.known), teller);
+  }
+  result.casts = check_cast_laws(candidate, checks, options.cast_laws(), teller);
+  if (candidate && checks.laws.empty() && result.casts.empty()) {
+    throw InvalidInput("--law", in_quotes(options.laws.front()),
+                       "must be a law of contacts: " + candidate->name + " has no casts");
+  }
   if (!options.save.empty()) save_all(result.laws, options.save, teller);
   if (!options.junit.empty()) write_file(options.junit, junit_xml(result), "--junit");
   if (options.json) print(check_json(result, checks).dump(2) + '\n');
@@ -209,7 +241,8 @@ int run_check(const CheckArguments& options) {
 
 std::string law_list() {
   std::string text = "Laws:\n";
-  for (const Law& law : all_laws()) text += list_entry(law.name, 11, law.statement);
+  for (const Law& law : all_laws()) text += list_entry(law.name, 13, law.statement);
+  for (const CastLaw& law : all_cast_laws()) text += list_entry(law.name, 13, law.statement);
   return text;
 }
 

@@ -9,6 +9,7 @@
 #include "candidates/candidates.hpp"
 #include "candidates/npm_engines.hpp"
 #include "cli/command.hpp"
+#include "properties/laws/cast_laws.hpp"
 #include "properties/laws/law.hpp"
 #include "properties/pose_class.hpp"
 #include "simulation/experiment.hpp"
@@ -110,6 +111,7 @@ Words words_for(const std::string& value) {
     for (const Pair pair : all_pairs) words.insert(pair_name(pair));
   } else if (value == "LAW") {
     for (const Law& law : all_laws()) words.insert(law.name);
+    for (const CastLaw& law : all_cast_laws()) words.insert(law.name);
   } else if (value == "EXPERIMENT") {
     for (const Experiment& e : all_experiments()) words.insert(e.name);
   }

@@ -61,15 +61,17 @@ std::string failure_text(const Failure& f, const Terminal& terminal) {
 
 namespace {
 
-/// "3 missed, 1 shallow; known: 12 missed".
+/// "3 missed, 1 shallow"
+std::string listed(const std::map<std::string, std::uint64_t>& counts) {
+  std::string text;
+  for (const auto& [name, count] : counts) {
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, name);
+  }
+  return text;
+}
+
+/// The same; and "known: 12 missed".
 std::string counts_text(const LawResult& result) {
-  const auto listed = [](const std::map<std::string, std::uint64_t>& counts) {
-    std::string text;
-    for (const auto& [name, count] : counts) {
-      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, name);
-    }
-    return text;
-  };
   std::string text = listed(result.counts);
   if (result.known.empty()) return text;
   return text + (text.empty() ? "" : "; ") + "known: " + listed(result.known);
@@ -103,7 +105,7 @@ std::string corpus_name(const Failure& f) {
 }
 
 /// What came of a law, beside its name or, on a narrow terminal, below it.
-std::string law_text(const LawResult& r, const Terminal& terminal) {
+std::string law_text(const LawResult& r, const std::string& law, const Terminal& terminal) {
   constexpr std::size_t verdict_at = 29, counts_at = 46, min_room = 24;
   const std::string verdict = r.broken > 0      ? fmt::format("broken by {}", r.broken)
                               : r.known.empty() ? "passed"
@@ -112,7 +114,7 @@ std::string law_text(const LawResult& r, const Terminal& terminal) {
     if (r.broken > 0) return terminal.bad(text);
     return r.known.empty() ? terminal.good(text) : text;
   };
-  const std::string name = fmt::format("  {:<13}{:>6} tried", r.law->name, r.tried);
+  const std::string name = fmt::format("  {:<13}{:>6} tried", law, r.tried);
   const std::string counts = counts_text(r);
   if (!counts.empty() && terminal.columns >= counts_at + min_room) {
     const std::string beside =
@@ -134,7 +136,36 @@ bool CheckResult::has_failed() const {
                                [&](const ReplayedFailure& r) { return is_failing(r, are_known); });
   };
   return fails(corpus, false) || fails(known, true) ||
-         std::ranges::any_of(laws, [](const LawResult& r) { return r.broken > 0; });
+         std::ranges::any_of(laws, [](const LawResult& r) { return r.broken > 0; }) ||
+         std::ranges::any_of(casts, [](const CastLawResult& r) { return r.broken > 0; });
+}
+
+namespace {
+
+std::string cast_breach_text(const CastLawResult& r, const std::string& candidate,
+                             const Terminal& terminal) {
+  return terminal.folded(fmt::format("{} {}, {}: {}", pair_name(r.pair), r.law->name,
+                                     r.violation->failure, r.violation->detail)) +
+         terminal.below(r.law->statement) +
+         fmt::format("  {} replay {} --candidates {}\n", program_name({candidate}), r.identity,
+                     candidate);
+}
+
+}  // namespace
+
+std::string cast_laws_text(const std::vector<CastLawResult>& casts, const std::string& candidate,
+                           const Terminal& terminal) {
+  std::string text, breaches;
+  const char* last = "";
+  for (const CastLawResult& r : casts) {
+    if (pair_name(r.pair) != last) {
+      last = pair_name(r.pair);
+      text += '\n' + terminal.heading(fmt::format("casts of {}", last)) + '\n';
+    }
+    text += law_text({nullptr, r.pair, r.tried, r.broken, 0, r.counts, {}}, r.law->name, terminal);
+    if (r.broken > 0) breaches += '\n' + cast_breach_text(r, candidate, terminal);
+  }
+  return text + breaches;
 }
 
 std::string check_text(const std::vector<LawResult>& results, const Terminal& terminal) {
@@ -153,7 +184,7 @@ std::string check_text(const std::vector<LawResult>& results, const Terminal& te
                                          counted(r.unsupported, "configuration")));
     }
     last = pair;
-    text += law_text(r, terminal);
+    text += law_text(r, r.law->name, terminal);
   }
   std::vector<const Failure*> firsts;
   for (const LawResult& r : results) {
@@ -209,6 +240,17 @@ std::string junit_xml(const CheckResult& result) {
     }
     cases += "</testcase>\n";
   }
+  for (const CastLawResult& r : result.casts) {
+    cases += fmt::format("    <testcase classname=\"{}.{}\" name=\"{}\">",
+                         xml_escaped(result.candidate), pair_name(r.pair), r.law->name);
+    if (r.broken > 0) {
+      ++failures;
+      cases += fmt::format("<failure type=\"{}\" message=\"{}\">{}</failure>",
+                           xml_escaped(r.violation->failure), xml_escaped(listed(r.counts)),
+                           xml_escaped(cast_breach_text(r, result.candidate, unbounded)));
+    }
+    cases += "</testcase>\n";
+  }
   using Result = ReplayedFailure::Result;
   const auto add_saved = [&](const ReplayedFailure& r, const char* kind, bool is_known) {
     cases +=
@@ -232,8 +274,8 @@ std::string junit_xml(const CheckResult& result) {
       "  <testsuite name=\"touchstone check\" tests=\"{}\" failures=\"{}\" skipped=\"{}\" "
       "time=\"{:.3f}\">\n{}"
       "  </testsuite>\n</testsuites>\n",
-      result.laws.size() + result.corpus.size() + result.known.size(), failures, skipped, seconds,
-      cases);
+      result.laws.size() + result.casts.size() + result.corpus.size() + result.known.size(),
+      failures, skipped, seconds, cases);
 }
 
 json check_json(const CheckResult& result, const CheckOptions& options) {
@@ -250,6 +292,16 @@ json check_json(const CheckResult& result, const CheckOptions& options) {
                     {"outcomes", r.counts},
                     {"known", r.known},
                     {"failures", failures}});
+  }
+  json casts = json::array();
+  for (const CastLawResult& r : result.casts) {
+    json& entry = casts.emplace_back();
+    entry = {{"law", r.law->name},
+             {"pair", pair_name(r.pair)},
+             {"tried", r.tried},
+             {"broken", r.broken},
+             {"outcomes", r.counts}};
+    if (r.broken > 0) entry["first"] = {{"id", r.identity}, {"detail", r.violation->detail}};
   }
   json saved = json::array();
   for (const auto* all : {&result.corpus, &result.known}) {
@@ -268,6 +320,7 @@ json check_json(const CheckResult& result, const CheckOptions& options) {
           {"tolerance", options.bar.tolerance},
           {"threshold", options.bar.threshold},
           {"laws", laws},
+          {"casts", casts},
           {"corpus", saved}};
 }
 

@@ -21,6 +21,11 @@ for search in "" --search; do
     check $search --candidate reference --save /proc/none
 done
 
+# Laws of casts, with the command that shows what breaks one.
+expect 1 'replay cylinder-box/.*/[a-z-]* --candidates bullet$' check --candidate bullet --pair cylinder-box \
+  --law cast-free --class general,rim-face,edge-side,edge-cap --count 60
+expect 0 '^  cast-free .* passed' check --candidate reference --pair cylinder-box --law cast-free --count 1
+expect 2 '--law is "cast-free": must be a law of contacts: ode has no casts' check --candidate ode --law cast-free
 # All laws. A line has no blanks at its end.
 # shellcheck disable=SC2086
 expect 0 'agreement .* passed' check --candidate reference $cap
