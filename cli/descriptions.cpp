@@ -98,7 +98,8 @@ Words words_for(const std::string& value) {
   if (value == "CANDIDATE") return candidate_names();
   if (value == "CLASS") return arrangement_names();
   if (value == "GROUP") return {"everyday", "degenerate", "extreme", "recorded"};
-  if (value == "REPORT-PART") return {"scores", "timing", "stability", "experiments", "engines"};
+  if (value == "REPORT-PART")
+    return {"scores", "timing", "casts", "stability", "experiments", "engines"};
   if (value == "ENGINE") return {"bullet", "bullet-float", "ode", "mujoco"};
   if (value == "PART") return {"amplification", "maps", "sequences"};
   if (value == "GOAL") return {"distance", "normal", "points", "hull", "time"};

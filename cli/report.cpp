@@ -41,6 +41,7 @@ struct Part {
 const std::vector<Part>& parts() {
   static const std::vector<Part> all = {{"scores", {"configurations", 45}},
                                         {"timing", {"pose classes timed", 20}},
+                                        {"casts", {"casts", 4}},
                                         {"stability", {"poses", 18}},
                                         {"experiments", {"experiments", 14}},
                                         {"engines", {"experiments in engines", 6}}};
@@ -63,7 +64,7 @@ struct ReportArguments {
     for (const std::string& name : chosen) {
       if (std::ranges::find(parts(), name, &Part::name) != parts().end()) continue;
       throw InvalidInput("--only", '"' + name + '"',
-                         "must be of scores, timing, stability, experiments, engines");
+                         "must be of scores, timing, casts, stability, experiments, engines");
     }
     chosen.insert("scores");
     if (!only.empty()) return chosen;
@@ -185,6 +186,7 @@ int run_report(const ReportArguments& options) {
   }
   const auto start = std::chrono::steady_clock::now();
   const auto is_next = [&](const char* part) { return chosen.contains(part) && !interrupted(); };
+  if (is_next("casts")) report.casts = measure_casts(campaign);
   if (is_next("stability")) {
     const Study study{campaign.candidates, campaign.bar, campaign.limits, campaign.workers};
     report.stability = measure(brief(study, campaign.pairs, campaign.seed));
@@ -220,7 +222,8 @@ void add_report(Program& program) {
   const auto options = std::make_shared<ReportArguments>(command);
   command
       .list("--only", options->only,
-            "Only these parts of scores (always made), timing, stability, experiments, engines")
+            "Only these parts of scores (always made), timing, casts, stability, experiments, "
+            "engines")
       .value("REPORT-PART");
   command.text("--out", options->out, "Folder for report.json and report.html").value("FOLDER");
   command

@@ -11,6 +11,7 @@
 #include "oracle/truth.hpp"
 #include "properties/identity.hpp"
 #include "properties/recorded.hpp"
+#include "reports/casts.hpp"
 #include "reports/stability/stability.hpp"
 #include "reports/statistics.hpp"
 #include "simulation/engines/run_engines.hpp"
@@ -194,6 +195,7 @@ struct Report {
   std::optional<DrakeProtocol> drake_protocol;
   std::vector<WorstCase> worst;
   // Of a whole report, all pairs and classes:
+  std::optional<Casts> casts;
   std::optional<Stability> stability;
   std::optional<ExperimentResults> experiments;
   std::optional<EngineResults> engines;

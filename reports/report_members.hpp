@@ -19,6 +19,8 @@ namespace touchstone {
 
 inline const auto& values_of(Outcome) { return all_outcomes; }
 inline const char* name_of(Outcome outcome) { return outcome_name(outcome); }
+inline const auto& values_of(CastOutcome) { return all_cast_outcomes; }
+inline const char* name_of(CastOutcome outcome) { return outcome_name(outcome); }
 inline const auto& values_of(Pair) { return all_pairs; }
 inline const char* name_of(Pair pair) { return pair_name(pair); }
 inline const auto& values_of(Group) { return reported_groups; }
@@ -340,6 +342,32 @@ void members(auto& a, DrakeProtocol& p) {
   a.named("results", p.results);
 }
 
+void members(auto& a, Casts::Row& r) {
+  a.named("pair", r.pair, rule::pair);
+  a.named("group", r.group, rule::group);
+  a.named("candidate", r.candidate);
+  a.named("count", r.count);
+  a.named("outcomes", r.outcomes);
+  a.named("wrong_by_motion", r.wrong_by_motion);
+  a.named("distance_p99", r.distance_p99, rule::not_negative);
+  a.named("distance_max", r.distance_max, rule::not_negative);
+}
+void members(auto& a, Casts::Worst& w) {
+  a.named("id", w.id);
+  a.named("pair", w.pair, rule::pair);
+  a.named("group", w.group, rule::group);
+  a.named("candidate", w.candidate);
+  a.named("outcome", w.outcome);
+  a.named("distance", w.distance);
+  a.named("normal_regret", w.normal_regret, rule::not_negative);
+  a.named("replay", w.replay);
+}
+void members(auto& a, Casts& c) {
+  a.named("count", c.count);
+  a.named("results", c.results);
+  a.named("worst", c.worst);
+}
+
 void members(auto& a, RecordedShare& s) {
   a.named("pair", s.pair, rule::pair);
   a.named("arrangement", s.arrangement.name);
@@ -389,6 +417,7 @@ void members(Archive& a, Report& r) {
   a.written("recorded", r.recorded);
   a.written("drake_protocol", r.drake_protocol);
   a.written("worst", r.worst);
+  a.written("casts", r.casts, When::filled);
   a.written("stability", r.stability, When::filled);
   a.written("experiments", r.experiments, When::filled);
   a.written("engines", r.engines, When::filled);

@@ -153,7 +153,7 @@ std::string terminal_table(const Report& report, const Terminal& terminal) {
     text += row_of(s, shown(s), table);
   }
   return text + '\n' + legend_of(report, groups, table, terminal) + marks_text(report, terminal) +
-         findings_text(report, terminal);
+         findings_text(report, terminal) + casts_text(report, terminal);
 }
 
 }  // namespace touchstone

@@ -28,10 +28,10 @@ docs = source / "docs"
 
 # Members that may be absent.
 OPTIONAL = {"reason", "audit", "given", "stability", "experiments", "engines", "amplification", "maps", "sequences",
-            "digest", "id", "cast", "there"}
+            "digest", "id", "cast", "casts", "there"}
 OPTIONAL_OF = {("score", "model_error"), ("score", "solver_error")}
 # Objects whose members are names or numbers.
-MAPS = {"answers", "outcomes", "points", "details", "letters"}
+MAPS = {"answers", "outcomes", "wrong_by_motion", "points", "details", "letters"}
 
 
 def validator(name):
@@ -131,11 +131,11 @@ class Schema(unittest.TestCase):
 
     def test_reports_stability_and_experiments(self):
         self.run_program("report", "--count", "1", "--pair", "cylinder-plane", "--candidates", "reference,capsule,bullet",
-                         "--only", "scores,timing,stability,experiments,engines", "--out", "whole")
+                         "--only", "scores,timing,casts,stability,experiments,engines", "--out", "whole")
         report = json.loads((self.path / "whole/report.json").read_text())
         text = self.run_example("report.md", {"out/report.json": report})
         self.assertRegex(text, r"standing agrees on \d+%, worst depth error \d")
-        for member in ("stability", "experiments", "engines", "drake_protocol", "factors", "contrasts",
+        for member in ("casts", "stability", "experiments", "engines", "drake_protocol", "factors", "contrasts",
                        "trends", "recorded", "worst"):
             self.assertTrue(report[member], member)
         self.check("report", report)

@@ -84,6 +84,7 @@ ordered_json report_schema_json() {
   schema.define<Trend>("trend");
   schema.define<RecordedShare>("recorded");
   schema.define<DrakeProtocol>("drake_protocol");
+  schema.define<Casts>("casts");
   schema.define<WorstCase>("worst");
   schema.set<Stability>(reference("stability.schema.json#/$defs/stability"));
   schema.set<ExperimentResults>(reference("experiments.schema.json"));

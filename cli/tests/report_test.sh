@@ -8,10 +8,10 @@ expect 2 '--only is "speed": must be of scores' report --only speed
 expect 2 '--pair.*cylinder-box' report --pair cylinder-cone
 expect 2 '--class' report --class nowhere --out "$folder/r"
 expect 2 '--out' report --out /proc/none
-for only in scores timing stability experiments; do
+for only in scores timing casts stability experiments; do
   expect 0 '^1 configuration, ' report $lying --count 1 --candidates reference --only $only --out "$folder/only"
-  for part in '"ratio_to_bullet"' '"amplification"' '"experiments": {'; do
-    case $only:$part in timing:*ratio* | stability:*ampl* | experiments:*expe*) wanted=0 ;; *) wanted=1 ;; esac
+  for part in '"ratio_to_bullet"' '"wrong_by_motion"' '"amplification"' '"experiments": {'; do
+    case $only:$part in timing:*ratio* | casts:*wrong* | stability:*ampl* | experiments:*expe*) wanted=0 ;; *) wanted=1 ;; esac
     grep -q "$part" "$folder/only/report.json"
     [ $? -eq $wanted ] || failed "report --only $only, $part"
   done

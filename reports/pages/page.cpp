@@ -20,7 +20,7 @@ extern const std::string_view page_html, pages_css, page_js, table_js;
 extern const std::string_view report_html, compare_html, replay_html, choose_html, engines_html,
     motion_html;
 extern const std::string_view report_js, report_failures_js, report_tables_js, report_charts_js,
-    report_method_js;
+    report_method_js, casts_js;
 extern const std::string_view compare_js, replay_js, stability_js, choose_js, engines_js, motion_js;
 extern const std::string_view bodies_js, view_js, chart_js, vega_js;
 
@@ -41,7 +41,7 @@ PageParts parts_of(Page page) {
               report_html,
               true,
               {bodies_js, view_js, stability_js, engines_js, report_js, report_failures_js,
-               report_tables_js, report_charts_js, report_method_js}};
+               report_tables_js, report_charts_js, casts_js, report_method_js}};
     case Page::comparison:
       return {"two reports compared", "What has changed?", compare_html, true, {compare_js}};
     case Page::replay:
