@@ -17,7 +17,7 @@ typedef enum ts_cast_status {
 typedef struct ts_cast {
   ts_cast_status status;
   double fraction;  /* of the sweep */
-  double normal[3]; /* unit, from B to A, world frame, at the touch */
+  double normal[3]; /* unit, from B to A, world frame, at the touch; zero: the engine says none */
 } ts_cast;
 
 /* When does A touch B first while it moves by `sweep` (metres, world frame)? Of the plug-in's

@@ -59,6 +59,25 @@ TEST(SolvedCast, BulletsRoundedRimIsLateOnASphere) {
   EXPECT_LT(bullet["distance"].get<double>(), -0.01);
 }
 
+TEST(SolvedCast, OfFclIsOneOfTenPosesUnlessItAdvances) {
+  // Onto a box's top, at a third: the poses tried are ninths of the way, and the fourth is inside.
+  json line = let_down();
+  line["b"] = json::parse(R"({"shape":"box","half_extents":[0.5,0.5,1]})");
+  std::istringstream in(line.dump());
+  std::ostringstream out;
+  solve(in, out,
+        {.candidates = find_candidates({"fcl", "fcl-distance", "fcl-indep"}),
+         .width = 1e-15,
+         .bar = {},
+         .csv = false});
+  const json answers = json::parse(out.str())["cast"]["answers"];
+  EXPECT_NEAR(answers["fcl"]["fraction"].get<double>(), 4.0 / 9, 1e-12);
+  EXPECT_EQ(answers["fcl"]["score"]["outcome"], "late");
+  EXPECT_EQ(answers["fcl-distance"]["score"]["outcome"], "agree");
+  EXPECT_TRUE(answers["fcl-distance"]["score"]["normal_regret"].is_null()) << "it says no normal";
+  EXPECT_FALSE(answers.contains("fcl-indep"));
+}
+
 TEST(SolvedCast, WithoutASweepThereIsNone) {
   json line = let_down();
   line.erase("sweep");

@@ -102,6 +102,7 @@ CastScore score_cast(const Configuration& c, const Sweep& sweep, const oracle::F
       return score;
     }
   }
+  if (answer.normal.isZero(0)) return score;
   const Configuration placed = seen_from_b(c, sweep, t);
   score.normal_regret =
       oracle::normal_regret(placed, oracle::truth(placed, judged_width), answer.normal) / size;

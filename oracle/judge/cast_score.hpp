@@ -57,7 +57,8 @@ struct CastScore {
   /// Signed distance at the answered fraction, relative to error_size; negative: A went too far.
   /// Of an answered never where A would touch, how deep it goes at most, likewise negative.
   std::optional<double> distance;
-  /// σ − g(n) of the answered normal where the touch is right, likewise relative.
+  /// σ − g(n) of the answered normal where the touch is right, likewise relative; absent of a
+  /// normal that is zero, which is none.
   std::optional<double> normal_regret;
 };
 

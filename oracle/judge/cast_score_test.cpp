@@ -62,6 +62,12 @@ TEST(CastScore, OfAnotherNormalIsWrong) {
   EXPECT_GT(*score.normal_regret, 0.1);
 }
 
+TEST(CastScore, ANormalThatIsNoneIsNotJudged) {
+  const CastScore score = scored_cast(CastStatus::touch, 0.375, Vec3::Zero());
+  EXPECT_EQ(score.outcome, CastOutcome::agree);
+  EXPECT_FALSE(score.normal_regret);
+}
+
 TEST(CastScore, FromTheStartAgreesWhereBodiesOverlap) {
   const Configuration deep{Cylinder(0.5, 1), Pose(Vec3(0, 0, 1.75)), Sphere(1), Pose()};
   EXPECT_EQ(scored_cast(CastStatus::from_start, 0, Vec3::UnitZ(), downwards, deep).outcome,
