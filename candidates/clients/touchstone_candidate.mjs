@@ -47,13 +47,16 @@
 //   roundings(prepared)                       the radii [A's, B's] of the balls by which the engine
 //       rounds edges and corners: of cylinder and box within their sizes, of a convex body around it.
 //       With it, shapes may have a `rounding`, too; without it, the candidate is not asked of those.
+//   cast(prepared, poseA, poseB, sweep)       when A touches B first while it moves by `sweep`: as
+//       { fraction, normal }, the fraction 0 from the start, the normal zero if there is none; null:
+//       never; undefined: the engine has no cast of this pair.
 import fs from 'node:fs';
 import os from 'node:os';
 
 const MAX_POINTS = 16;
 const HEADER = 24;
-const SIZES = { prepare: 104, question: 144, answer: 944, handle: 4, vertex: 24, roundings: 16 };
-const PREPARE = 1, QUERY = 2, TIME = 3, RELEASE = 4;
+const SIZES = { prepare: 104, question: 144, answer: 944, handle: 4, vertex: 24, roundings: 16, cast: 40 };
+const PREPARE = 1, QUERY = 2, TIME = 3, RELEASE = 4, CAST = 5;
 const STATUSES = { contact: 0, none: 1, unsupported: 2, failed: 3 };
 
 const output = takeStandardOutput();
@@ -86,10 +89,10 @@ export function run(candidate) {
   }
   if (os.endianness() !== 'LE') throw new Error('this machine is not little-endian');
   const { name, version, settings, pairs, precision = 'double', runs = 'script', format = 'frames',
-    parameter, models, roundings } = candidate;
+    parameter, models, roundings, cast } = candidate;
   if (format !== 'frames' && format !== 'lines') throw new Error(`no such format: ${format}`);
   writeLine({ touchstone: 1, name, version, settings, precision, runs, format, pairs, parameter,
-    models, roundings: roundings ? true : undefined });
+    models, roundings: roundings ? true : undefined, casts: cast ? true : undefined });
   const engine = new Engine(candidate);
   if (format === 'frames') answerFrames(engine);
   else answerLines(engine);
@@ -137,6 +140,22 @@ class Engine {
       endAfterTrap(error);
       print(error);
       return encode({ status: 'failed' });
+    }
+  }
+
+  // Its status, and of a touch the cast.
+  cast({ handle, poseA, poseB, sweep }) {
+    const { value, error } = this.prepared.get(handle);
+    if (value === null) return { status: 'unsupported' };
+    try {
+      if (error) throw error;
+      const cast = this.candidate.cast(value, poseA, poseB, sweep);
+      if (!cast) return { status: cast === null ? 'never' : 'unsupported' };
+      return { status: 'touch', ...cast, normal: [...cast.normal] };
+    } catch (thrown) {
+      endAfterTrap(thrown);
+      print(thrown);
+      return { status: 'failed' };
     }
   }
 
@@ -224,6 +243,10 @@ function answerFrames(engine) {
         answer = new DataView(new ArrayBuffer(HEADER + SIZES.answer * count));
         questions.forEach((question, i) =>
           engine.query(question, (given) => writeAnswer(answer, HEADER + SIZES.answer * i, given)));
+      } else if (operation === CAST) {
+        answer = new DataView(new ArrayBuffer(HEADER + SIZES.cast * count));
+        questions.forEach(({ hint: sweep, ...question }, i) =>
+          writeCast(answer, HEADER + SIZES.cast * i, engine.cast({ sweep, ...question })));
       } else if (operation === TIME) {
         answer = new DataView(new ArrayBuffer(HEADER + 8));
         answer.setFloat64(HEADER, engine.time(view.getUint32(20, true), questions), true);
@@ -283,6 +306,11 @@ function writeAnswer(view, at, { status, contact, modelDistance = NaN }) {
     setNumbers(at + 48 + 56 * i, [...position, ...ofPoint, depth]));
 }
 
+function writeCast(view, at, { status, fraction = NaN, normal = [0, 0, 0] }) {
+  view.setUint32(at, ['touch', 'never', 'unsupported', 'failed'].indexOf(status), true);
+  [fraction, ...normal].forEach((x, i) => view.setFloat64(at + 8 + 8 * i, x, true));
+}
+
 // The contact if it is one: a member that is left out would travel as a NaN, or not at all.
 function checked(contact) {
   if (!contact) return { signed_distance: 0, normal: [0, 0, 0], points: [] };
@@ -315,6 +343,10 @@ function answerLines(engine) {
     } else if (op === 'query') {
       const answers = entries.map((entry) => engine.query(questionOf(entry), describe));
       writeLine({ ticket, answers });
+    } else if (op === 'cast') {
+      const casts = entries.map(({ sweep, ...entry }) =>
+        engine.cast({ ...questionOf(entry), sweep }));
+      writeLine({ ticket, casts });
     } else if (op === 'time') {
       writeLine({ ticket, nanoseconds: engine.time(passes, entries.map(questionOf)) });
     } else if (op === 'release') {

@@ -1,18 +1,23 @@
 #include "candidates/host/ask_cast.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <dlfcn.h>
+#include <functional>
 #include <iterator>
 #include <map>
+#include <memory>
 
 #include "candidates/cast.h"
 #include "candidates/host/contained.hpp"
+#include "candidates/host/spoken_command.hpp"
 
 namespace touchstone {
 namespace {
 
-constexpr double cast_seconds = 5;
+/// Of processor time, for many casts; a command has to start first, which may compile itself.
+double seconds_of(const Candidate& candidate) { return candidate.command() ? 30 : 5; }
 
 using CastFunction = decltype(&touchstone_cast);
 
@@ -22,14 +27,23 @@ CastFunction cast_function(const std::string& file) {
   return library ? reinterpret_cast<CastFunction>(dlsym(library, "touchstone_cast")) : nullptr;
 }
 
-/// Whether a plug-in exports casts, found once.
-bool has_casts(const std::string& file) {
+/// Whether it has casts, found once.
+bool has_casts(const Candidate& candidate) {
   static std::map<std::string, bool> known;
-  const auto found = known.find(file);
+  const auto found = known.find(candidate.family);
   if (found != known.end()) return found->second;
-  const Contained answer =
-      run_contained([&] { return std::string(cast_function(file) ? "yes" : "no"); }, cast_seconds);
-  return known[file] = answer.text == "yes";
+  const Contained answer = run_contained(
+      [&] {
+        if (const auto* plugin = candidate.plugin()) {
+          return std::string(cast_function(plugin->file.string()) ? "yes" : "no");
+        }
+        const auto* command = candidate.command();
+        if (!command) return std::string("no");
+        const SpokenCommand spoken(command->line.c_str(), command->folder.c_str());
+        return std::string(spoken.description().has_casts ? "yes" : "no");
+      },
+      seconds_of(candidate));
+  return known[candidate.family] = answer.text == "yes";
 }
 
 /// None if it has no cast of this.
@@ -43,15 +57,37 @@ std::optional<CastAnswer> to_answer(const ts_cast& answer) {
   return CastAnswer{Cast{status, answer.fraction, normal}};
 }
 
+/// What casts, in a process of its own.
+using Caster = std::function<ts_cast(const ts_shape&, const ts_shape&, const messages::Poses&)>;
+
+Caster caster_of(const Candidate& candidate) {
+  if (const Candidate::Plugin* const plugin = candidate.plugin()) {
+    const CastFunction cast = cast_function(plugin->file.string());
+    return
+        [=, index = plugin->index](const ts_shape& a, const ts_shape& b, const messages::Poses& p) {
+          ts_cast answer{};
+          cast(index, &a, &b, &p.a, &p.b, p.previous_normal, &answer);
+          return answer;
+        };
+  }
+  const Candidate::Command& given = *candidate.command();
+  const auto command = std::make_shared<SpokenCommand>(given.line.c_str(), given.folder.c_str());
+  return [=, parameter = candidate.value](const ts_shape& a, const ts_shape& b,
+                                          const messages::Poses& p) {
+    // No number is how a failure travels to those who judge it.
+    return command->cast(a, b, parameter, p).value_or(ts_cast{TS_CAST_TOUCH, NAN, {}});
+  };
+}
+
 /// The answers' bytes, one after the other.
-std::string answers_of(const Candidate::Plugin& plugin, std::span<const CastQuestion> questions) {
-  const CastFunction cast = cast_function(plugin.file.string());
+std::string answers_of(const Candidate& candidate, std::span<const CastQuestion> questions) {
+  const Caster cast = caster_of(candidate);
   std::string bytes;
   for (const auto& [c, sweep] : questions) {
     const ts_shape a = to_ts_shape(c.a), b = to_ts_shape(c.b);
-    const ts_pose pose_a = to_ts_pose(c.pose_a), pose_b = to_ts_pose(c.pose_b);
-    ts_cast answer{};
-    cast(plugin.index, &a, &b, &pose_a, &pose_b, sweep.data(), &answer);
+    messages::Poses poses{0, to_ts_pose(c.pose_a), to_ts_pose(c.pose_b), true, {}};
+    std::ranges::copy(sweep, poses.previous_normal);
+    const ts_cast answer = cast(a, b, poses);
     bytes.append(reinterpret_cast<const char*>(&answer), sizeof answer);
   }
   return bytes;
@@ -68,10 +104,9 @@ std::vector<std::optional<CastAnswer>> ask_casts(const Candidate& candidate,
     }
     return answers;
   }
-  const Candidate::Plugin* const plugin = candidate.plugin();
-  if (questions.empty() || !plugin || !has_casts(plugin->file.string())) return answers;
+  if (questions.empty() || !has_casts(candidate)) return answers;
   const Contained contained =
-      run_contained([&] { return answers_of(*plugin, questions); }, cast_seconds);
+      run_contained([&] { return answers_of(candidate, questions); }, seconds_of(candidate));
   const bool has_all = contained.end == Contained::End::returned &&
                        contained.text.size() == questions.size() * sizeof(ts_cast);
   if (!has_all && questions.size() == 1) return {CastAnswer{{}, contained.text}};

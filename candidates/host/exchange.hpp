@@ -183,6 +183,7 @@ struct Description {
   char precision[8], runs[8];
   bool in_frames;
   bool says_roundings;  ///< takes rounded bodies, and says how it rounds them
+  bool has_casts;
 };
 
 /// A text that may lack its end.

@@ -21,6 +21,7 @@ static_assert(std::endian::native == std::endian::little,
               "frames are copied as they lie in memory");
 
 constexpr std::size_t header_size = 24, length_size = 4;
+constexpr std::size_t cast_bytes = 40;  // status, nothing, fraction, normal
 constexpr std::size_t point_size = 56, answer_bytes = 48 + TOUCHSTONE_MAX_POINTS * point_size;
 static_assert(sizeof(ts_point) == point_size);
 
@@ -255,7 +256,7 @@ Json pose_json(const ts_pose& pose) {
 }
 
 std::string request_line(const Request& request, Json entries, std::uint32_t passes = 0) {
-  constexpr const char* names[] = {"", "prepare", "query", "time", "release"};
+  constexpr const char* names[] = {"", "prepare", "query", "time", "release", "cast"};
   Json json = {{"op", names[static_cast<std::size_t>(request.operation)]},
                {"ticket", request.ticket},
                {"entries", std::move(entries)}};
@@ -374,6 +375,9 @@ Description read_hello(const std::string& line) {
   const Json roundings = json.value("roundings", Json(false));
   if (!roundings.is_boolean()) refuse_member("roundings", roundings, "true or false");
   d.says_roundings = roundings.get<bool>();
+  const Json casts = json.value("casts", Json(false));
+  if (!casts.is_boolean()) refuse_member("casts", casts, "true or false");
+  d.has_casts = casts.get<bool>();
   d.in_frames = choice_member(json, "format", {"frames", "lines"}) == "frames";
   return d;
 }
@@ -405,10 +409,12 @@ Request prepare_request(Format format, std::uint64_t ticket, const PairOfShapes&
   return request;
 }
 
-Request query_request(Format format, std::uint64_t ticket, std::span<const Poses> poses,
-                      std::uint32_t passes) {
-  Request request{format, passes > 0 ? Operation::time : Operation::query, ticket,
-                  static_cast<std::uint32_t>(poses.size()), ""};
+namespace {
+
+Request asking(Operation operation, Format format, std::uint64_t ticket,
+               std::span<const Poses> poses, std::uint32_t passes = 0) {
+  Request request{format, operation, ticket, static_cast<std::uint32_t>(poses.size()), ""};
+  const char* const third = operation == Operation::cast ? "sweep" : "hint";
   Writer out(request, passes);
   Json entries = Json::array();
   for (const Poses& p : poses) {
@@ -416,7 +422,7 @@ Request query_request(Format format, std::uint64_t ticket, std::span<const Poses
       entries.push_back({{"handle", p.handle},
                          {"pose_a", pose_json(p.a)},
                          {"pose_b", pose_json(p.b)},
-                         {"hint", p.has_previous_normal ? numbers(p.previous_normal) : Json()}});
+                         {third, p.has_previous_normal ? numbers(p.previous_normal) : Json()}});
       continue;
     }
     out.put(p.handle);
@@ -428,6 +434,17 @@ Request query_request(Format format, std::uint64_t ticket, std::span<const Poses
   request.text =
       format == Format::lines ? request_line(request, std::move(entries), passes) : out.take();
   return request;
+}
+
+}  // namespace
+
+Request query_request(Format format, std::uint64_t ticket, std::span<const Poses> poses,
+                      std::uint32_t passes) {
+  return asking(passes > 0 ? Operation::time : Operation::query, format, ticket, poses, passes);
+}
+
+Request cast_request(Format format, std::uint64_t ticket, const Poses& poses) {
+  return asking(Operation::cast, format, ticket, {&poses, 1});
 }
 
 Request release_request(Format format, std::uint64_t ticket,
@@ -451,6 +468,8 @@ std::size_t Request::answer_size() const {
       return header_size + answer_bytes * std::size_t{count};
     case Operation::time:
       return header_size + 8;
+    case Operation::cast:
+      return header_size + cast_bytes * std::size_t{count};
     case Operation::release:
       break;
   }
@@ -483,6 +502,34 @@ Answer read_answer(const Request& request, const std::string& answer) {
   }
   Reader in(request, answer);
   return get_answer(in);
+}
+
+std::optional<ts_cast> read_cast(const Request& request, const std::string& answer) {
+  constexpr const char* names[] = {"touch", "never", "unsupported", "failed"};
+  constexpr std::uint32_t failed = 3;
+  std::uint32_t status = 0;
+  ts_cast cast{};
+  if (request.format == Format::frames) {
+    Reader in(request, answer);
+    status = in.get<std::uint32_t>();
+    in.get<std::uint32_t>();
+    cast.fraction = in.get<double>();
+    for (double& x : cast.normal) x = in.get<double>();
+    if (status > failed) refuse("a cast has the status " + std::to_string(status));
+  } else {
+    const Json json = list_member(answer_line(request, answer), "casts", 1)[0];
+    if (!json.is_object()) refuse("a cast is no JSON object");
+    const Json said = json.value("status", Json());
+    while (status <= failed && said != names[status]) ++status;
+    if (status > failed) refuse("a cast has the status " + quoted(said.dump(-1, ' ', true)));
+    if (status == TS_CAST_TOUCH) {
+      cast.fraction = number_of(json.value("fraction", Json()), "fraction");
+      get_vector(json, "normal", cast.normal);
+    }
+  }
+  if (status == failed) return std::nullopt;
+  cast.status = static_cast<ts_cast_status>(status);
+  return cast;
 }
 
 double read_time(const Request& request, const std::string& answer) {

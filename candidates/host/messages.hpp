@@ -7,6 +7,7 @@
 #include <string>
 
 #include "candidates/answer.hpp"
+#include "candidates/cast.h"
 #include "candidates/host/exchange.hpp"
 
 namespace touchstone::messages {
@@ -17,7 +18,7 @@ namespace touchstone::messages {
 /// How all messages after the hello are written.
 enum class Format { frames, lines };
 
-enum class Operation : std::uint32_t { prepare = 1, query = 2, time = 3, release = 4 };
+enum class Operation : std::uint32_t { prepare = 1, query = 2, time = 3, release = 4, cast = 5 };
 
 /// A text that is no answer to a request: "its ticket is 7 instead of 8".
 struct Garbage : std::runtime_error {
@@ -66,6 +67,8 @@ Request prepare_request(Format format, std::uint64_t ticket, const PairOfShapes&
 /// Of `query`, or of `time` with so many passes.
 Request query_request(Format format, std::uint64_t ticket, std::span<const Poses> poses,
                       std::uint32_t passes = 0);
+/// Of `cast`: the sweep stands where the hint does in a query.
+Request cast_request(Format format, std::uint64_t ticket, const Poses& poses);
 Request release_request(Format format, std::uint64_t ticket,
                         std::span<const std::uint32_t> handles);
 
@@ -80,6 +83,8 @@ struct Prepared {
 std::optional<Prepared> read_prepared(const Request& request, const std::string& answer);
 /// Of a query of one entry.
 Answer read_answer(const Request& request, const std::string& answer);
+/// None if the question failed.
+std::optional<ts_cast> read_cast(const Request& request, const std::string& answer);
 /// Nanoseconds of all passes: finite and not negative.
 double read_time(const Request& request, const std::string& answer);
 void read_released(const Request& request, const std::string& answer);

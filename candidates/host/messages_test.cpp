@@ -245,6 +245,44 @@ class Fuzz {
   std::mt19937_64 random_;
 };
 
+TEST(Messages, ACastHasItsSweepWhereAQueryHasItsHint) {
+  const Poses poses{7, {{1, 2, 3}, {1, 0, 0, 0}}, {{0, 0, 0}, {1, 0, 0, 0}}, true, {4, 5, 6}};
+  const Request line = cast_request(Format::lines, 3, poses);
+  EXPECT_THAT(line.text, testing::HasSubstr(R"("op":"cast")"));
+  EXPECT_THAT(line.text, testing::HasSubstr(R"("sweep":[4.0,5.0,6.0])"));
+  const Request frame = cast_request(Format::frames, 3, poses);
+  EXPECT_EQ(frame.text.size(), query_request(Format::frames, 3, {&poses, 1}).text.size());
+  EXPECT_EQ(frame.answer_size(), 24U + 40U);
+}
+
+TEST(Messages, ACastIsReadFromBothFormats) {
+  const Request line{Format::lines, Operation::cast, 4, 1, ""},
+      frame{Format::frames, Operation::cast, 4, 1, ""};
+  const auto of_line = [&](const std::string& cast) {
+    return read_cast(line, R"({"ticket": 4, "casts": [)" + cast + "]}");
+  };
+  const auto touch = of_line(R"({"status": "touch", "fraction": 0.25, "normal": [0, 0, 1]})");
+  ASSERT_TRUE(touch);
+  EXPECT_EQ(touch->status, TS_CAST_TOUCH);
+  EXPECT_EQ(touch->fraction, 0.25);
+  EXPECT_EQ(touch->normal[2], 1);
+  EXPECT_EQ(of_line(R"({"status": "never"})")->status, TS_CAST_NEVER);
+  EXPECT_EQ(of_line(R"({"status": "unsupported"})")->status, TS_CAST_UNSUPPORTED);
+  EXPECT_FALSE(of_line(R"({"status": "failed"})"));
+  EXPECT_THROW(of_line(R"({"status": "late"})"), Garbage);
+  EXPECT_THROW(of_line(R"({"status": "touch", "fraction": 0.25})"), Garbage);
+  EXPECT_THROW(of_line("5"), Garbage);
+
+  std::string bytes(frame.answer_size(), '\0');
+  const std::uint32_t head[] = {60, 5, 4, 0, 1, 0, 1};
+  std::memcpy(bytes.data(), head, sizeof head);
+  EXPECT_EQ(read_cast(frame, bytes)->status, TS_CAST_NEVER);
+  bytes[24] = 3;
+  EXPECT_FALSE(read_cast(frame, bytes));
+  bytes[24] = 4;
+  EXPECT_THROW(read_cast(frame, bytes), Garbage);
+}
+
 TEST(Messages, AHundredThousandBrokenOnesAreReadOrRefused) {
   const Request in_frames{Format::frames, Operation::query, 4, 1, ""},
       prepares{Format::lines, Operation::prepare, 4, 1, ""},

@@ -208,6 +208,19 @@ Answer SpokenCommand::query(const messages::Poses& poses) {
   return messages::read_answer(request, ask(request));
 }
 
+std::optional<ts_cast> SpokenCommand::cast(const ts_shape& a, const ts_shape& b, double parameter,
+                                           const messages::Poses& poses) {
+  ts_prepared* const prepared = prepare(a, b, 0, parameter);
+  if (!prepared) return ts_cast{TS_CAST_UNSUPPORTED, 0, {}};
+  messages::Poses of_prepared = poses;
+  of_prepared.handle = prepared->handle;
+  const auto request = messages::cast_request(format_, ++ticket_, of_prepared);
+  const auto answer = messages::read_cast(request, ask(request));
+  release(prepared->handle);
+  delete prepared;
+  return answer;
+}
+
 void SpokenCommand::release(std::uint32_t handle) {
   released_.push_back(handle);
   if (released_.size() < max_released) return;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <sys/types.h>
@@ -31,6 +32,9 @@ class SpokenCommand {
   ts_candidate candidate();
   /// Null if the command says none.
   Roundings roundings() const;
+  /// The answer to a cast; none if the question failed. Precondition: the description has casts.
+  std::optional<ts_cast> cast(const ts_shape& a, const ts_shape& b, double parameter,
+                              const messages::Poses& poses);
   /// Asks an easy question, so that what begins late begins now.
   void warm_up(double parameter);
 

@@ -15,6 +15,7 @@
 // Conventions  The contact on the queried shape comes in that shape's frame, the one on B in the
 //              world's. The normal is that on B, which points out of it.
 // Points       One, midway between those on both bodies.
+// Casts        HP_World_ShapeCastWithCollector, the first hit; its normal is that on B.
 // Threshold    The query's maximum distance.
 // Precision    Poses are rounded to float.
 //
@@ -74,6 +75,17 @@ const world = checked(havok.HP_World_Create());
 const collector = checked(havok.HP_QueryCollector_Create(1));
 const toXyzw = ([w, x, y, z]) => [x, y, z, w];
 
+/** What `ask` returns while the body is the world's only one. */
+function withBody(body, { position, orientation }, ask) {
+  havok.HP_Body_SetQTransform(body, [position, toXyzw(orientation)]);
+  havok.HP_World_AddBody(world, body, false);
+  try {
+    return ask();
+  } finally {
+    havok.HP_World_RemoveBody(world, body);
+  }
+}
+
 run({
   name: hasFloor ? 'havok-floor' : 'havok',
   version: versionOf('@babylonjs/havok'),
@@ -96,10 +108,7 @@ run({
   },
 
   query({ shapeA, body, floor, threshold }, poseA, poseB) {
-    const { position, orientation } = floor ? floor.at(poseA, poseB) : poseB;
-    havok.HP_Body_SetQTransform(body, [position, toXyzw(orientation)]);
-    havok.HP_World_AddBody(world, body, false);
-    try {
+    return withBody(body, floor ? floor.at(poseA, poseB) : poseB, () => {
       havok.HP_World_ShapeProximityWithCollector(world, collector,
         [shapeA, poseA.position, toXyzw(poseA.orientation), threshold, false, [0n]]);
       if (checked(havok.HP_QueryCollector_GetNumHits(collector)) === 0) return null;
@@ -111,10 +120,19 @@ run({
       const inWorld = rotate(poseA.orientation, pointOnA).map((x, i) => x + poseA.position[i]);
       return { signed_distance: distance, normal,
         points: [{ position: middle(inWorld, pointOnB), normal, depth: -distance }] };
-    } finally {
-      havok.HP_World_RemoveBody(world, body);
-    }
+    });
   },
+
+  cast: hasFloor ? undefined : ({ shapeA, body }, poseA, poseB, sweep) =>
+    withBody(body, poseB, () => {
+      const end = poseA.position.map((x, i) => x + sweep[i]);
+      havok.HP_World_ShapeCastWithCollector(world, collector,
+        [shapeA, toXyzw(poseA.orientation), poseA.position, end, false, [0n]]);
+      if (checked(havok.HP_QueryCollector_GetNumHits(collector)) === 0) return null;
+      const [fraction, , [, , , , normal]] =
+        checked(havok.HP_QueryCollector_GetShapeCastResult(collector, 0));
+      return { fraction, normal };
+    }),
 
   release({ shapeA, shapeB, body }) {
     havok.HP_Body_Release(body);

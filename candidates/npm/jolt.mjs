@@ -23,6 +23,9 @@
 // Conventions  mPenetrationAxis, and a manifold's normal, moves shape 2 out; which body is the
 //              manifold's first is checked.
 // Points       Midway between those on both bodies.
+// Casts        TransformedShape::CastShape with default settings, for which edges are sharp
+//              (mUseShrunkenShapeAndConvexRadius is off); the first hit, its normal along the
+//              penetration axis. Not of worlds and floors.
 // Threshold    mMaxSeparationDistance; the world's speculative contact distance, at least its own
 //              of 2 cm, and what lies beyond the threshold is dropped.
 // Precision    Poses are rounded to float.
@@ -155,6 +158,18 @@ hits.AddHit = (address) => {
     onA: toArray(found.mContactPointOn1), onB: toArray(found.mContactPointOn2) };
 };
 
+// The same of a cast.
+const castHits = new Jolt.CastShapeCollectorJS();
+let castHit = null;
+castHits.Reset = () => { castHit = null; };
+castHits.OnBody = () => {};
+castHits.AddHit = (address) => {
+  const { mFraction, mPenetrationAxis } = Jolt.wrapPointer(address, Jolt.ShapeCastResult);
+  if (castHit && castHit.fraction <= mFraction) return;
+  castHit = { fraction: mFraction, axis: toArray(mPenetrationAxis) };
+};
+const castSettings = new Jolt.ShapeCastSettings(), direction = new Jolt.Vec3();
+
 const toArray = (v) => [v.GetX(), v.GetY(), v.GetZ()];
 
 const needsTurn = (shape) => shape.shape === 'cylinder' || shape.shape === 'capsule';
@@ -189,6 +204,22 @@ const byQuery = {
     const normal = axis.map((x) => x / length);
     return { signed_distance: distance, normal,
       points: [{ position: middle(onA, onB), normal, depth: -distance }] };
+  },
+
+  cast: hasFloor ? undefined : ({ shapeA, body, turned }, poseA, poseB, sweep) => {
+    place(poseB, turned);
+    body.SetWorldTransform(position, rotation, one);
+    place(poseA, true);
+    direction.Set(...sweep);
+    castHit = null;
+    const atA = Jolt.RMat44.prototype.sRotationTranslation(rotation, position);
+    const moving = new Jolt.RShapeCast(shapeA, one, atA, direction);
+    castHits.ResetEarlyOutFraction();
+    body.CastShape(moving, castSettings, zero, castHits, any);
+    Jolt.destroy(moving);
+    if (!castHit) return null;
+    const { fraction, axis } = castHit, length = -Math.hypot(...axis);
+    return { fraction, normal: length ? axis.map((x) => x / length) : axis };
   },
 
   release({ shapeA, body, query }) {

@@ -15,6 +15,8 @@
 //              normal2, which points out of B as well. A manifold's normal points from its first
 //              body to its second, which may be either.
 // Points       Midway between those on both bodies; of a query one, of a floor the 16 deepest.
+// Casts        rapier: Shape.castShape with target distance 0, which stops at a penetration; B is the
+//              first shape and stands still, and the normal is its outward one, in its own frame.
 // Threshold    The query's prediction; the world's prediction distance, at least its own of 2 mm.
 //              What lies beyond the threshold nevertheless is dropped.
 // Precision    Poses are rounded to float.
@@ -82,6 +84,16 @@ const byQuery = {
     const position = middle(toArray(found.point1), toArray(found.point2));
     return { signed_distance: found.distance, normal,
       points: [{ position, normal, depth: -found.distance }] };
+  },
+
+  cast({ b, shapeA, shapeB }, poseA, poseB, sweep) {
+    const atB = b.shape === 'plane' ? onPlane(b, poseB) : toVector(poseB.position);
+    const turnB = toQuaternion(poseB, isAlongY(b)), still = toVector([0, 0, 0]);
+    const found = shapeB.castShape(atB, turnB, still, shapeA, toVector(poseA.position),
+      toQuaternion(poseA, true), toVector(sweep), 0, 1, true);
+    if (!found) return null;
+    const normal = rotate([turnB.w, turnB.x, turnB.y, turnB.z], toArray(found.normal1));
+    return { fraction: found.time_of_impact, normal };
   },
 };
 

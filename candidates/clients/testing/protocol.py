@@ -11,7 +11,8 @@ from typing import Any, NamedTuple
 
 SHAPES = ("cylinder", "plane", "sphere", "capsule", "box", "convex")
 STATUSES = ("contact", "none", "unsupported", "failed")
-PREPARE, QUERY, TIME, RELEASE = 1, 2, 3, 4
+PREPARE, QUERY, TIME, RELEASE, CAST = 1, 2, 3, 4, 5
+CAST_STATUSES = ("touch", "never", "unsupported", "failed")
 OPERATIONS = {PREPARE: "prepare", QUERY: "query", TIME: "time", RELEASE: "release"}
 
 
@@ -90,6 +91,12 @@ class Child:
         answers = self.ask_frame(QUERY, pack(questions))
         assert len(answers) == 944 * len(questions)
         return [unpack_answer(answers[at:at + 944]) for at in range(0, len(answers), 944)]
+
+    def cast(self, questions: list[tuple[int, dict, dict, tuple]]) -> list[tuple[str, float, tuple]]:
+        """Questions: handle, poses, sweep. Status, fraction and normal of each, in frames alone."""
+        answers = self.ask_frame(CAST, pack(questions))
+        return [(CAST_STATUSES[status], fraction, tuple(normal))
+                for status, _, fraction, *normal in struct.iter_unpack("<II4d", answers)]
 
     def time(self, passes: int, questions: list[tuple[int, dict, dict, tuple | None]]) -> float:
         if self.in_lines:
