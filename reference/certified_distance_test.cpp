@@ -325,6 +325,26 @@ TEST(CertifiedStages, NoNormalBesideAnEllipseExceedsWhatIsClaimedOfTheFoot) {
   EXPECT_GT(tight, of_feet / 3);
 }
 
+// Where the axis passes through an edge of a hull, which is a tie all around: of the edge's normals
+// the ellipse's steepest is far from the best, but not the arc that they are.
+TEST(CertifiedStages, AnArcWithoutTheFootIsBoundedByItsOwnNormals) {
+  Random random(1);
+  for (int i = 0; i < 1000; ++i) {
+    SCOPED_TRACE(i);
+    // As narrow as rounding leaves it, from the normal with the whole depth on.
+    const double a = random.uniform(1, 2), b = a * random.uniform(0.5, 1);
+    const double x = a - random.uniform(0.1, 1) * b * b / a, y = random.uniform(0, 0.5);
+    NormalArc narrow;
+    narrow.last = Vec2(1, random.power_of_ten(-17, -15));
+    EXPECT_LE(ellipse_excess(a, b, x, y, ellipse_normal(a, b, x, y), a - x, narrow), 1e-13);
+    // Falling from its first normal on, however it bends back beyond its last one.
+    const double fall = (1 + random.power_of_ten(-3, 0)) * (a - b * b / a);
+    NormalArc wide;
+    wide.last = Vec2(std::cos(1.0), std::sin(1.0));
+    EXPECT_LE(ellipse_excess(a, b, 0, -fall, Vec2(0, 1), a, wide), 1e-13);
+  }
+}
+
 // Lengths out of range are scaled, and the answer back, which may round it to a multiple of the
 // least double, or overflow.
 TEST(CertifiedDistance, HoldsOfLengthsNextToTheLeastAndTheLargestDouble) {

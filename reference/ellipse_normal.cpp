@@ -130,13 +130,29 @@ double ellipse_excess(double a, double b, double x, double y, const std::optiona
   const auto slope = [&](const Vec2& m, double h) {
     return y * m.x() - x * m.y() + focal * m.x() * m.y() / h;
   };
+  // Where W falls so steeply at the first normal, it stays below zero whatever ρ is.
+  const double h_first = reach(arc.first), falling = slope(arc.first, h_first);
+  if (falling + std::max(0.0, depth - squared / (h_first * h_first * h_first)) <= 0) {
+    return rounding;
+  }
+  const auto above_best = [&](const Vec2& m, double h) {
+    return x * m.x() + y * m.y() - h + depth;
+  };
+  // The most of the sinusoid with this value, not above zero, and slope at m on the way to an end.
+  const auto risen = [](const Vec2& m, double value, double up, const Vec2& end) {
+    return std::max(0.0, m.dot(end) * value + std::abs(cross2(m, end)) * std::max(0.0, up));
+  };
+  const Vec2 last = arc.last.value_or(Vec2(0, 1));
   if (n) {
     const bool is_early = is_before(*n, arc.first), is_late = arc.last && is_before(*arc.last, *n);
     const Vec2& m = is_early ? arc.first : is_late ? *arc.last : *n;
     const double h = reach(m), cube = h * h * h, room = squared - depth * cube;  // (ρ − depth) h³
     if (room > 0) {
       const double up = slope(m, h);
-      if (is_early || is_late) return std::max(0.0, is_early ? up : -up) + rounding;
+      if (is_early || is_late) {  // m was tried
+        const double value = std::min(0.0, above_best(m, h));
+        return risen(m, value, is_early ? up : -up, is_early ? last : arc.first) + rounding;
+      }
       if (std::abs(up) <= rounding) return 2 * rounding;
       // On an arc before m at least half of ρ − depth is left: ρ falls by no more than the part
       // 3 (a² − b²) m_y / h² of itself per radian.
@@ -147,9 +163,6 @@ double ellipse_excess(double a, double b, double x, double y, const std::optiona
       return (is_held ? steepest * steepest * cube / room : steepest) + rounding;
     }
   }
-  // Where W falls so steeply at the first normal, it stays below zero whatever ρ is.
-  const double h_first = reach(arc.first), up = slope(arc.first, h_first);
-  if (up + std::max(0.0, depth - squared / (h_first * h_first * h_first)) <= 0) return rounding;
   // Where ρ is the depth but for rounding, or the end of the arc that is next to there.
   const double h = depth > 0 ? std::min(a, std::cbrt(squared / depth)) : a;
   const double cosine = h > b ? std::sqrt((h - b) * (h + b) / focal) : 0;
@@ -157,8 +170,9 @@ double ellipse_excess(double a, double b, double x, double y, const std::optiona
   const double all_rounding = rounding + 24 * unit_roundoff * std::abs(depth);
   if (arc.last && is_before(*arc.last, even)) return all_rounding;
   const Vec2& m = is_before(even, arc.first) ? arc.first : even;
-  const double h_there = reach(m), gap = x * m.x() + y * m.y() - h_there;
-  return std::max(0.0, gap + depth) + std::max(0.0, slope(m, h_there)) + all_rounding;
+  const double h_there = reach(m), value = above_best(m, h_there);
+  return std::max(0.0, value) + risen(m, std::min(0.0, value), slope(m, h_there), last) +
+         all_rounding;
 }
 
 }  // namespace touchstone
