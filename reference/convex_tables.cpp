@@ -193,6 +193,7 @@ class FacetMaker {
       facet.corners = faces_[seed].vertices;
     }
     facet.normal = tables_.face_normal(seed);
+    facet.offset = tables_.support(facet.normal);
     return facet;
   }
 
@@ -231,7 +232,7 @@ ConvexTables::ConvexTables(const std::vector<Vec3>& points, const std::vector<Co
     const Vec3 left = face_normal(e.faces[0]), right = face_normal(e.faces[1]);
     const Vec3 middle = (left + right + along.cross(left - right)).normalized();
     const int index = static_cast<int>(edges.size());
-    edges.push_back({Vec3::Zero(), along, middle, 0, e.vertices, e.faces[0], e.faces[1]});
+    edges.push_back({Vec3::Zero(), along, middle, 0, 0, e.vertices, e.faces[0], e.faces[1]});
     of_face[e.faces[0]].push_back({index, e.faces[1]});
     of_face[e.faces[1]].push_back({index, e.faces[0]});
     for (const int v : e.vertices) edges_at[v].push_back(index);
@@ -245,7 +246,6 @@ ConvexTables::ConvexTables(const std::vector<Vec3>& points, const std::vector<Co
     for (const int v : facets[f].corners) facets_at[v].push_back(static_cast<int>(f));
   }
   vertex_facets = lists_of(facets_at);
-  measure();
 }
 
 void ConvexTables::measure() {
@@ -258,6 +258,7 @@ void ConvexTables::measure() {
   for (Edge& e : edges) {
     e.from = vertex(e.vertices[0]);
     e.length = (vertex(e.vertices[1]) - e.from).dot(e.along);
+    e.reach = support(e.middle);
   }
   for (Facet& f : facets) f.offset = support(f.normal);
   for (int f = 0; f < face_count; ++f) {

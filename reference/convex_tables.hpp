@@ -33,6 +33,7 @@ struct ConvexTables {
   struct Edge {
     Vec3 from, along, middle;
     double length;
+    double reach;  ///< the body's support along the middle
     std::array<int, 2> vertices;
     int left, right;
   };

@@ -141,6 +141,18 @@ TEST_P(PointContractOfHulls, HoldsOfAllPointsWithinTheThreshold) {
   }
 }
 
+// Of hulls a unit in the last place off a lattice, faces may be so thin that no normal of theirs
+// tells where the hull is.
+TEST_P(PointContractOfHulls, NothingOfAHullLiesOutsideOfIt) {
+  Random random(4);
+  for (std::uint64_t i = 0; i < 10 * contacts_per_class(); ++i) {
+    SCOPED_TRACE(i);
+    std::vector<Vec3> points = hull_points(GetParam(), random);
+    const Convex hull = oracle::convex_hull(points);
+    for (const Vec3& p : points) ASSERT_LE(outside(hull, p), 1e-15 * p.norm());
+  }
+}
+
 std::string hull_name(const testing::TestParamInfo<HullKind>& kind) {
   return hull_kind_names[static_cast<int>(kind.param)];
 }

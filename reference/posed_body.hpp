@@ -127,7 +127,9 @@ inline double outside(const PosedBox& s, const Vec3& x) {
   return ((s.axes.transpose() * (x - s.centre)).cwiseAbs() - s.half_extents).maxCoeff();
 }
 
-/// Beyond the planes of its faces, and at its edges beyond those halfway between them.
+/// Beyond the planes that touch it along its faces' normals, and along those halfway between two of
+/// them: of the least faces a normal may be any, and the plane through one of their edges with it
+/// need not leave the body on one side.
 inline double outside(const PosedConvex& s, const Vec3& x) {
   const ConvexTables& tables = s.body.tables();
   const Vec3 local = s.axes.transpose() * (x - s.centre);
@@ -136,7 +138,7 @@ inline double outside(const PosedConvex& s, const Vec3& x) {
     most = std::max(most, faces.heights(local).maxCoeff());
   }
   for (const ConvexTables::Edge& e : tables.edges) {
-    most = std::max(most, e.middle.dot(local - e.from));
+    most = std::max(most, e.middle.dot(local) - e.reach);
   }
   return most;
 }

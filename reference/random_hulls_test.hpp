@@ -24,24 +24,25 @@ inline std::vector<Vec3> corners_of(const Box& box) {
 }
 
 enum class HullKind {
-  random,         ///< of 4 to 64 points in a ball
-  round,          ///< of 8 to 64 points of a sphere
-  prism,          ///< of 3 to 40 sides
-  triangle,       ///< of any proportions
-  polygon,        ///< flat, of 4 to 12 corners
-  needle,         ///< a random one, 1e-2 to 1e-9 as thick in two directions
-  slab,           ///< in one
-  wedge,          ///< two points of an edge, 1e-1 to 1e-12 apart, at the end of a triangle
-  nearly_flat,    ///< a box whose vertices are off its faces by 1e-3 to 1e-16
-  off_the_origin  ///< a random one, away from its own origin
+  random,          ///< of 4 to 64 points in a ball
+  round,           ///< of 8 to 64 points of a sphere
+  prism,           ///< of 3 to 40 sides
+  triangle,        ///< of any proportions
+  polygon,         ///< flat, of 4 to 12 corners
+  needle,          ///< a random one, 1e-2 to 1e-9 as thick in two directions
+  slab,            ///< in one
+  wedge,           ///< two points of an edge, 1e-1 to 1e-12 apart, at the end of a triangle
+  nearly_flat,     ///< a box whose vertices are off its faces by 1e-3 to 1e-16
+  off_the_origin,  ///< a random one, away from its own origin
+  lattice          ///< of halves of whole numbers, some off by the least that doubles can be
 };
 inline constexpr HullKind hull_kinds[] = {
-    HullKind::random,      HullKind::round,         HullKind::prism, HullKind::triangle,
-    HullKind::polygon,     HullKind::needle,        HullKind::slab,  HullKind::wedge,
-    HullKind::nearly_flat, HullKind::off_the_origin};
-inline const char* const hull_kind_names[] = {"random",      "round",         "prism", "triangle",
-                                              "polygon",     "needle",        "slab",  "wedge",
-                                              "nearly_flat", "off_the_origin"};
+    HullKind::random,      HullKind::round,          HullKind::prism,  HullKind::triangle,
+    HullKind::polygon,     HullKind::needle,         HullKind::slab,   HullKind::wedge,
+    HullKind::nearly_flat, HullKind::off_the_origin, HullKind::lattice};
+inline const char* const hull_kind_names[] = {"random",      "round",          "prism",  "triangle",
+                                              "polygon",     "needle",         "slab",   "wedge",
+                                              "nearly_flat", "off_the_origin", "lattice"};
 
 /// Points of about one metre.
 inline std::vector<Vec3> hull_points(HullKind kind, Random& random) {
@@ -119,6 +120,18 @@ inline std::vector<Vec3> hull_points(HullKind kind, Random& random) {
       cloud(4 + random.one_of(20), 0);
       const Vec3 away = random.uniform(0.5, 3) * random.direction();
       for (Vec3& p : points) p += away;
+      break;
+    }
+    case HullKind::lattice: {
+      const int count = 4 + random.one_of(12);
+      const auto half = [&] { return (random.one_of(5) - 2) / 2.0; };
+      for (int i = 0; i < count; ++i) {
+        const double x = half(), y = half();
+        points.emplace_back(x, y, half());
+        for (double& coordinate : points.back()) {
+          if (random.one_of(4) == 0) coordinate = std::nextafter(coordinate, random.sign());
+        }
+      }
       break;
     }
   }
