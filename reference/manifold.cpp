@@ -135,7 +135,7 @@ template <class Body>
   Margins sharp = margins;
   sharp.slack = sharp.flat = margins.rounding;
   const FacingFeature on_a = facing(a, -n, sharp.flat), on_b = facing(b, n, sharp.flat);
-  const Contact before = contact;
+  Contact before = contact;
   contact.clear_points();
   add_points_of_features(contact, on_a, on_b, origin, sharp);
   const Contact& fuller = max_depth(contact) >= max_depth(before) ? contact : before;
@@ -145,7 +145,7 @@ template <class Body>
     for (const double flat : {sharp.flat, margins.flat}) {
       Contact other = contact;
       if (meet_any(other, facing(a, -n, flat), a, b, origin, sharp)) {
-        contact = other;
+        contact = before = other;  // the other points were of a feature that A does not meet
         found = deepest_point(contact);
         break;
       }

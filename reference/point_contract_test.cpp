@@ -209,6 +209,27 @@ TEST(PointsWhereRimsTouch, LieOnBothBodies) {
   }
 }
 
+// An edge in two pieces, in line but for the least double, of which the side crosses one: the other
+// one ends beside A, where A's surface has fallen off.
+TEST(PointsWhereAnEdgeIsInPieces, LieOnBothBodies) {
+  constexpr double least = std::numeric_limits<double>::denorm_min();
+  Random random(1);
+  for (int i = 0; i < 1000; ++i) {
+    SCOPED_TRACE(i);
+    const double end = random.uniform(-0.5, 0.5), turn = random.uniform(0.2, 1.5);
+    const Convex roof = oracle::convex_hull(
+        {Vec3(-1, 0, 0), Vec3(1, 0, 0), Vec3(end, 0, least), Vec3(0, 1, -1), Vec3(0, -1, -1)});
+    const Cylinder a(random.uniform(0.2, 1), 1);
+    const double aside = random.power_of_ten(-3, -1) * random.sign(), depth = 0.1 * a.radius();
+    const Vec3 axis(std::cos(turn), std::sin(turn), 0);
+    const Configuration c{
+        a, Pose(Vec3(end + aside, 0, a.radius() - depth), turn_between(Vec3::UnitZ(), axis)), roof,
+        Pose()};
+    expect_contract(c, 0, 3e-8 * larger_size(c));
+    if (HasFailure()) return;
+  }
+}
+
 // A side that crosses an edge next to which a face leans by less than would be seen, but by more
 // than the overlap leaves: the bodies are deepest where side and edge cross, and nowhere else.
 TEST(PointsWhereASideCrossesAnEdge, LieOnBothBodies) {
