@@ -4,7 +4,7 @@
 Runs every command of a page: the blocks marked `sh`, the `run:` of blocks marked `yaml`, and what
 begins with `./touchstone` within a sentence. A block has a folder of its own, which looks like a
 clone after its build. An unmarked block that follows holds lines which its commands print; other
-blocks are not read. A block that is a scheduler's job file (Slurm's array, Kubernetes' indexed job)
+blocks are not read. A workflow's file is a page of one block. A block that is a scheduler's job file (Slurm's array, Kubernetes' indexed job)
 runs as three of its jobs, the last one first, and what they did is merged: it must be what one
 command makes. Commands that take long are shortened (clone.py); the few that cannot run here are
 named with what does run them (pages.py).
@@ -77,7 +77,7 @@ def faults_of_job_file(clone, text):
 def faults_of_block(clone, commands, expected_lines):
     """What is wrong with a block, a sentence each."""
     # Where Touchstone's clone is a folder of an engine's.
-    commands = [re.sub(r"\btouchstone/(?=touchstone |build/)", "./", c) for c in commands]
+    commands = [re.sub(r"\btouchstone/(?=touchstone |build/|candidates/)", "./", c) for c in commands]
     for word, preparation in SUPPOSED.items():
         if any(word in command for command in commands):
             code, printed = clone.run(preparation)
@@ -103,6 +103,8 @@ def faults_of_block(clone, commands, expected_lines):
 
 def main(source, program, page):
     text, faults = page.read_text(), []
+    if page.suffix == ".yml":  # a workflow alone
+        text = f"```yaml\n{text}```\n"
     my_engine = re.search(r"^```c\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)  # a page's plug-in
     with tempfile.TemporaryDirectory() as scratch:
         def new_clone():
