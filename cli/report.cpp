@@ -12,6 +12,7 @@
 #include "cli/options.hpp"
 #include "properties/files/disk.hpp"
 #include "reference/invalid_input.hpp"
+#include "reports/engine_table.hpp"
 #include "reports/figures/figures.hpp"
 #include "reports/make_report.hpp"
 #include "reports/replay.hpp"
@@ -54,7 +55,7 @@ struct ReportArguments {
   CampaignOption scored;
   WorkersOption workers;
   std::vector<std::string> only;
-  std::string out = "out", figures, configurations;
+  std::string out = "out", figures, configurations, table;
   bool has_details = false;
 
   /// The names of the parts to make: scores always. Those that are not of single pose classes are
@@ -171,6 +172,8 @@ int run_report(const ReportArguments& options) {
   const std::string folder = options.out, figures_folder = options.figures;
   const OutputFolder out(folder);
   std::optional<OutputFolder> figures;
+  const bool is_html = !options.table.empty() && is_html_table(options.table);
+  if (!options.table.empty()) check_file_writable(options.table, "--table");
   if (!figures_folder.empty()) {
     check_figures(figures_folder);
     if (!std::filesystem::equivalent(figures_folder, folder)) {
@@ -206,7 +209,13 @@ int run_report(const ReportArguments& options) {
   text += '\n' + terminal.folded(fmt::format(
                      "{}, truth certified to 1e-30 of the larger size, {:.0f} s.",
                      counted(report.configurations, "configuration"), report.wall_seconds));
-  write_then_print([&] { write_report(report, folder); }, text);
+  write_then_print(
+      [&] {
+        write_report(report, folder);
+        if (options.table.empty()) return;
+        write_file(options.table, engine_table(report, is_html), "--table");
+      },
+      text);
   print(fmt::format("Report: {0}/report.html, {0}/report.json\n", folder));
   if (!figures_folder.empty()) {
     write_figures(report, figures_folder);
@@ -234,6 +243,10 @@ void add_report(Program& program) {
       .text("--figures", options->figures,
             "Folder for figures as SVG, PNG and CSV, made by gnuplot")
       .value("FOLDER");
+  command
+      .text("--table", options->table,
+            "Also a table of candidates by pairs for your own page, as .md or .html")
+      .value("FILE");
   command.flag("--details", options->has_details, details_help);
   command.footer(
       "Examples:\n"
