@@ -38,7 +38,7 @@ Vec2 CapOnCap::nearest() const {
   return circle1_.centre + part * (circle2_.centre - circle1_.centre);
 }
 
-Vec2 CapOnCap::farthest(const Vec2& unit) const {
+Vec2 CapOnCap::farthest(const Vec2& unit, double) const {
   if (!over_.has_begun()) return radius_ * unit;
   const auto is_in = [](const Circle& c, const Vec2& p) {
     return (p - c.centre).squaredNorm() <= c.radius * c.radius;

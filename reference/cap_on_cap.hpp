@@ -20,7 +20,7 @@ class CapOnCap {
   const Vec2& middle() const { return middle_; }
   /// The place of the first cap, or between them, where their rims are nearest to each other.
   Vec2 nearest() const;
-  Vec2 farthest(const Vec2& unit) const;
+  Vec2 farthest(const Vec2& unit, double = 0) const;
 
   static constexpr int max_points = 9;  ///< no more than 8 of them differ
   /// As CapOnFace::spread, and as `cut_off` there.

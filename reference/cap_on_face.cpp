@@ -17,6 +17,9 @@ constexpr double handed_over = 0.01;
 constexpr double long_edge = 0.15;
 /// From so many radii before all four edges cut on, the points beside the deepest place move there.
 constexpr double makes_room = 0.05;
+/// An edge that cuts off no more than this part of the radius has hardly two ends: where one of
+/// them moves, the other one comes along.
+constexpr double has_ends = 0.01;
 
 }  // namespace
 
@@ -68,7 +71,7 @@ Vec2 CapOnFace::nearest() const {
   return x != 0 && y != 0 ? place(0, x, y) : Vec2(x * outward_[0] + y * outward_[1]);
 }
 
-Vec2 CapOnFace::farthest(const Vec2& unit) const {
+Vec2 CapOnFace::farthest(const Vec2& unit, double straight) const {
   Vec2 arm = radius_ * unit;
   const double x = outward_[0].dot(arm), y = outward_[1].dot(arm);
   if (x <= sides_[0].distance && y <= sides_[1].distance && -x <= sides_[2].distance &&
@@ -78,8 +81,15 @@ Vec2 CapOnFace::farthest(const Vec2& unit) const {
   Vec2 farthest = Vec2::Zero();
   double most = -std::numeric_limits<double>::infinity();
   for (int i = 0; i < 4; ++i) {
-    for (const double lateral : {sides_[i].lo, sides_[i].hi}) {
-      const Vec2 p = place(i, sides_[i].height, lateral);
+    const Side& s = sides_[i];
+    const double sine = cross2(outward_[i], unit);
+    if (s.top > s.distance && std::abs(sine) < straight && unit.dot(outward_[i]) > 0) {
+      // At the end beside an arc no later than the arc goes on from there.
+      const double half = (s.hi - s.lo) / 2, gain = std::max(radius_, half / straight);
+      return place(i, s.height, within((s.lo + s.hi) / 2 + gain * sine, s.lo, s.hi));
+    }
+    for (const double lateral : {s.lo, s.hi}) {
+      const Vec2 p = place(i, s.height, lateral);
       const double far = unit.dot(p);
       if (far > most) most = far, farthest = p;
     }
@@ -137,7 +147,7 @@ int CapOnFace::spread(const Vec2& towards, const Vec2& deepest, double clearness
   }
   if (const double weight = clearness * room; weight > 0) {
     for (int i = 0; i < 4; ++i) {
-      Vec2 &p = points[last[i]], &q = points[first[next(i)]];
+      const Vec2 &p = points[last[i]], &q = points[first[next(i)]];
       const double after_p = cross2(p, towards), before_q = cross2(towards, q);
       if (!(after_p > 0 && before_q > 0 && cross2(p, q) > 0)) continue;
       const Vec2 from = p.normalized(), to = q.normalized(), between = (from + to).normalized();
@@ -145,8 +155,14 @@ int CapOnFace::spread(const Vec2& towards, const Vec2& deepest, double clearness
       const bool is_nearer_p = towards.dot(from) > towards.dot(to);
       const Vec2 &for_p = is_nearer_p ? towards : mirrored,
                  &for_q = is_nearer_p ? mirrored : towards;
-      p = p.norm() * (from + weight * (for_p - from)).normalized();
-      q = q.norm() * (to + weight * (for_q - to)).normalized();
+      const auto move = [&](int side, int end, int other, const Vec2& way) {
+        const Vec2 before = points[end];
+        points[end] = before.norm() * (before.normalized() + weight * way).normalized();
+        const double cut = (sides_[side].top - sides_[side].distance) / radius_;
+        if (other != end) points[other] += ramp(cut, has_ends, 0) * (points[end] - before);
+      };
+      move(i, last[i], first[i], for_p - from);
+      move(next(i), first[next(i)], last[next(i)], for_q - to);
       break;
     }
   }

@@ -24,8 +24,9 @@ class CapOnFace {
   bool empty() const { return empty_; }
   /// The face's point that is nearest to the cap's middle.
   Vec2 nearest() const;
-  /// The place that is farthest along a unit vector.
-  Vec2 farthest(const Vec2& unit) const;
+  /// The place that is farthest along a unit vector; of one that is across an edge but for less
+  /// than `straight`, a place on the edge, so that it does not change ends all at once.
+  Vec2 farthest(const Vec2& unit, double straight = 0) const;
 
   static constexpr int max_points = 9;  ///< no more than 8 of them differ
   /// The points of a cap that leans towards a unit vector, at whose farthest place `deepest` it is

@@ -50,7 +50,7 @@ class CapOnPolygon {
     return found;
   }
   /// The place that is farthest along a unit vector.
-  Vec2 farthest(const Vec2& unit) const {
+  Vec2 farthest(const Vec2& unit, double = 0) const {
     const Vec2 arm = radius_ * unit;
     bool is_inside = true;
     Vec2 found = arm;

@@ -34,7 +34,9 @@ PatchPoints<Patch> points_of(const ContactPlane& plane, const Patch& patch, cons
     found.count = patch.spread(slope, Vec2(0, 0), 0, found.points);
     return found;
   }
-  const Vec2 up = slope / steepness, deepest = patch.farthest(-up);
+  // So that along an edge that is leaned over straight nothing rises by what is clear.
+  const double straight = std::min(0.1, plane.margins().clear_rise() / rise);
+  const Vec2 up = slope / steepness, deepest = patch.farthest(-up, straight);
   found.count = patch.spread(-up, deepest, clearness, found.points);
   found.deepest = deepest;
   found.clearness = clearness;

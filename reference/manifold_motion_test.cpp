@@ -353,6 +353,57 @@ TEST(ManifoldMotion, HullNeverJumpsHoweverACapStands) {
   EXPECT_GE(stand, all * 9 / 10);
 }
 
+/// A cap on a box, which a step moves to either side of where it is.
+struct Step {
+  Vec3 position;
+  Box b;
+  Vec3 tilt, shift, turn;
+  Configuration taken(double way) const {
+    const Vec3 by = (tilt + way * turn) / 2;
+    return {Cylinder(1, 1), Pose(position + way * shift, Quaternion(1, by.x(), by.y(), by.z())), b,
+            Pose()};
+  }
+};
+
+// An edge that hardly cuts is short; its ends are equally deep then, and rounding says which is the
+// deeper one.
+TEST(ManifoldMotion, DeepestPointStaysAsALeanTurnsAcrossAnEdge) {
+  const auto deepest = [](const Contact& c) {
+    const auto points = c.points();
+    return std::max_element(points.begin(), points.end(),
+                            [](const auto& p, const auto& q) { return p.depth < q.depth; })
+        ->position;
+  };
+  for (const double cut : {1e-7, 1e-6, 1.9e-6}) {
+    for (const double tilt : {1.5e-6, 1e-5, 1e-4}) {
+      const Vec3 middle(-2 - cut - tilt, 0, 1.9999);  // so that the cap's own reaches that far
+      const Step step{middle, Box({3, 3, 1}), {0, -tilt, 0}, {0, 0, 0}, {1e-9 * tilt, 0, 0}};
+      const Contact one = contact(step.taken(-1), 0), other = contact(step.taken(1), 0);
+      EXPECT_LE((deepest(one) - deepest(other)).norm(), 1e-5) << cut << " " << tilt;
+    }
+  }
+}
+
+// The edge has one point before and two from then on, of which the deepest place takes one.
+TEST(ManifoldMotion, HullNeverJumpsAsTheLastEdgeBeginsToCutACapThatLeans) {
+  constexpr double step = 1e-9;
+  const double most = 4 * std::sqrt(step);
+  for (double heading = 0.1; heading < 6.3; heading += 0.2) {
+    for (const double tilt : {0.7e-6, 0.9e-6, 1.5e-6, 1e-5}) {
+      const Vec3 lean(tilt * std::cos(heading), tilt * std::sin(heading), 0);
+      // The cap's own middle, not the can's, lies over the box's.
+      const Vec3 middle(lean.y(), -lean.x(), 1.99);
+      for (const int i : {0, 1}) {
+        Vec3 sides(0.97, 0.97, 1), shift(0, 0, 0);
+        sides[i] = 1, shift[i] = step;
+        const Step taken{middle, Box(sides), lean, shift, {0, 0, 0}};
+        const Contact before = contact(taken.taken(-1), 0), after = contact(taken.taken(1), 0);
+        EXPECT_LE(hull_movement(before, after), most) << heading << " " << tilt << " " << i;
+      }
+    }
+  }
+}
+
 TEST(ManifoldMotion, HullNeverJumpsAsParallelSidesAreCrossed) {
   const Shape grounds[] = {Cylinder(1, 2), Capsule(1, 2)};
   for (const Shape& ground : grounds) {
