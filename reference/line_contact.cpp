@@ -25,6 +25,10 @@ void keep_within(Interval& range, double a, double b, double bound) {
 
 /// A line that runs along an edge but for this part of rounding is on it or within it.
 constexpr double hair_part = 4e3;
+/// One that crosses it by less than this part of its body's radius is so the longer the less it
+/// does, for where they cross is no more than a step nobody sees says. Its points are moved to the
+/// edge, where its round body lies lower by the square of that.
+constexpr double grazing_part = unseen_part / 4;
 
 constexpr double crossed = 0.1;  // rad; lines that turn by more cross in a point
 
@@ -81,6 +85,9 @@ void segment_on_flat(const Manifold& to, const FacingFeature& segment, const Fac
   const Line l = plane.line(segment);
   const Incline surface = plane.incline(flat);
   Interval range{-l.half_length, l.half_length};
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  const Strip everywhere{Vec2(1, 0), 0, infinite};
+  std::array<Strip, 2> strips{everywhere, everywhere};  // of a rectangle
   if (flat.kind == Kind::disc) {
     const Circle disc{plane.to_plane(flat.middle), flat.radius};
     const double squared = l.along.squaredNorm();
@@ -100,15 +107,17 @@ void segment_on_flat(const Manifold& to, const FacingFeature& segment, const Fac
   } else {  // a rectangle
     // The edges that the line crosses first. One that runs along the others, but for a hair, does
     // so within them or on one, whichever side of that rounding puts it on.
-    const std::array<Strip, 2> strips = plane.face(flat).strips;
+    strips = plane.face(flat).strips;
     const double along[] = {strips[0].across.dot(l.along), strips[1].across.dot(l.along)};
     const int first = std::abs(along[0]) >= std::abs(along[1]) ? 0 : 1;
     for (const int i : {first, 1 - first}) {
       const double hair = hair_part * plane.margins().rounding;
-      if (std::abs(along[i]) * (range.hi - range.lo) <= hair) continue;
+      const double slant = std::abs(along[i]) * (range.hi - range.lo);
+      if (slant <= hair) continue;
+      const double seen = std::max(grazing_part * l.radius - slant, 0.0);
       const double offset = strips[i].across.dot(l.middle) - strips[i].middle;
       Interval within = range;
-      keep_within(within, offset, along[i], strips[i].half_width);
+      keep_within(within, offset, along[i], strips[i].half_width + seen);
       if (within.empty()) {  // they only touch, at the nearer end
         const double middle = offset + along[i] * (range.lo + range.hi) / 2;
         within.lo = within.hi = middle * along[i] > 0 ? range.lo : range.hi;
@@ -132,8 +141,15 @@ void segment_on_flat(const Manifold& to, const FacingFeature& segment, const Fac
   const double kept = part * (range.hi - range.lo);
   if (part < 1) (at_lo < at_hi ? range.hi = range.lo + kept : range.lo = range.hi - kept);
   const auto add_at = [&](double t) {
-    const Vec2 p = l.at(t);
+    Vec2 p = l.at(t);
     const double on_line = l.height + t * l.rise, on_flat = surface.at(p);
+    for (const Strip& edges : strips) {
+      const double beyond = edges.across.dot(p) - edges.middle;
+      const double off = beyond - within(beyond, -edges.half_width, edges.half_width);
+      if (std::abs(off) <= grazing_part * l.radius) {
+        p -= off / edges.across.squaredNorm() * edges.across;
+      }
+    }
     segment_is_a ? plane.add(p, on_line, on_flat) : plane.add(p, on_flat, on_line);
   };
   // Ends that hardly overlap are one point, whichever side rounding puts them on.

@@ -404,6 +404,23 @@ TEST(ManifoldMotion, HullNeverJumpsAsTheLastEdgeBeginsToCutACapThatLeans) {
   }
 }
 
+// Where they cross each other is no more than the step says.
+TEST(ManifoldMotion, HullNeverJumpsAsALyingSideGrazesAnEdge) {
+  for (const double slant : {1e-9, 1e-8, 1e-7}) {
+    for (const double beyond : {-1e-9, 0.0, 1e-9}) {
+      const Vec3 middle(0.3, 1 + beyond, 1.499);
+      const auto at = [&](double step) {
+        return contact(
+            {Cylinder(0.5, 1),
+             Pose(middle + Vec3(0, step, 0), Quaternion(1, 0, 0, slant / 2) * along_x.normalized()),
+             Box({0.7, 1, 1}), Pose()},
+            0);
+      };
+      EXPECT_LE(hull_movement(at(-1e-9), at(1e-9)), 0.01) << slant << " " << beyond;
+    }
+  }
+}
+
 TEST(ManifoldMotion, HullNeverJumpsAsParallelSidesAreCrossed) {
   const Shape grounds[] = {Cylinder(1, 2), Capsule(1, 2)};
   for (const Shape& ground : grounds) {
