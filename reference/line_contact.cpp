@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "contact_plane.hpp"
 #include "line_in_polygon.hpp"
@@ -85,9 +86,7 @@ void segment_on_flat(const Manifold& to, const FacingFeature& segment, const Fac
   const Line l = plane.line(segment);
   const Incline surface = plane.incline(flat);
   Interval range{-l.half_length, l.half_length};
-  constexpr double infinite = std::numeric_limits<double>::infinity();
-  const Strip everywhere{Vec2(1, 0), 0, infinite};
-  std::array<Strip, 2> strips{everywhere, everywhere};  // of a rectangle
+  std::optional<Strip> grazed;  // of a rectangle, the edges that the line all but runs along
   if (flat.kind == Kind::disc) {
     const Circle disc{plane.to_plane(flat.middle), flat.radius};
     const double squared = l.along.squaredNorm();
@@ -107,7 +106,7 @@ void segment_on_flat(const Manifold& to, const FacingFeature& segment, const Fac
   } else {  // a rectangle
     // The edges that the line crosses first. One that runs along the others, but for a hair, does
     // so within them or on one, whichever side of that rounding puts it on.
-    strips = plane.face(flat).strips;
+    const std::array<Strip, 2> strips = plane.face(flat).strips;
     const double along[] = {strips[0].across.dot(l.along), strips[1].across.dot(l.along)};
     const int first = std::abs(along[0]) >= std::abs(along[1]) ? 0 : 1;
     for (const int i : {first, 1 - first}) {
@@ -115,6 +114,8 @@ void segment_on_flat(const Manifold& to, const FacingFeature& segment, const Fac
       const double slant = std::abs(along[i]) * (range.hi - range.lo);
       if (slant <= hair) continue;
       const double seen = std::max(grazing_part * l.radius - slant, 0.0);
+      if (seen > 0) [[unlikely]]
+        grazed = strips[i];
       const double offset = strips[i].across.dot(l.middle) - strips[i].middle;
       Interval within = range;
       keep_within(within, offset, along[i], strips[i].half_width + seen);
@@ -143,11 +144,11 @@ void segment_on_flat(const Manifold& to, const FacingFeature& segment, const Fac
   const auto add_at = [&](double t) {
     Vec2 p = l.at(t);
     const double on_line = l.height + t * l.rise, on_flat = surface.at(p);
-    for (const Strip& edges : strips) {
-      const double beyond = edges.across.dot(p) - edges.middle;
-      const double off = beyond - within(beyond, -edges.half_width, edges.half_width);
+    if (grazed) {
+      const double across = grazed->across.dot(p) - grazed->middle;
+      const double off = across - within(across, -grazed->half_width, grazed->half_width);
       if (std::abs(off) <= grazing_part * l.radius) {
-        p -= off / edges.across.squaredNorm() * edges.across;
+        p -= off / grazed->across.squaredNorm() * grazed->across;
       }
     }
     segment_is_a ? plane.add(p, on_line, on_flat) : plane.add(p, on_flat, on_line);
