@@ -160,10 +160,13 @@ INSTANTIATE_TEST_SUITE_P(, PointContractOfHulls, testing::ValuesIn(hull_kinds), 
 
 // Along a previous normal that only ties, features need not reach each other: points then lie on
 // the bodies to within the threshold, or the bodies part along their best normal.
-TEST_P(PointContract, HoldsWithAnyPreviousNormalToWithinTheThreshold) {
+class PointContractOfHints : public testing::TestWithParam<Pair> {};
+
+TEST_P(PointContractOfHints, HoldsWithAnyPreviousNormalToWithinTheThreshold) {
   Random random(2);
+  const std::uint64_t count = of_each_class(GetParam(), contacts_per_class());
   for (const auto& name : pose_classes(GetParam())) {
-    for (std::uint64_t i = 0; i < contacts_per_class(); ++i) {
+    for (std::uint64_t i = 0; i < count; ++i) {
       const Identity id{GetParam(), name, 15, i};
       const Configuration c = make_configuration(id);
       const SignedDistance plain = signed_distance(c);
@@ -306,8 +309,10 @@ TEST(PointsWithinTheThreshold, HoldARockingCoinAtBothEdges) {
   }
 }
 
-// Hulls have tests of their own, above.
+// Without a hint hulls have tests of their own, above: of fourteen poses in 9,680 of their classes,
+// twelve of them a million metres away, a point lies off a surface by 1e-6 to 0.3.
 INSTANTIATE_TEST_SUITE_P(, PointContract, testing::ValuesIn(pairs_of_sizes), name_of_other);
+INSTANTIATE_TEST_SUITE_P(, PointContractOfHints, testing::ValuesIn(all_pairs), name_of_other);
 
 // Configurations that were found to break it once.
 TEST(PointContractOfTheHostile, HoldsAtEveryThreshold) {
