@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include <Eigen/Core>
@@ -47,6 +48,16 @@ std::optional<Vec2> ellipse_normal(double a, double b, double x, double y);
 /// what `ellipse_normal` maximises falls all the way from (1, 0) to (0, 1).
 inline bool is_beyond_evolute(double a, double b, double x, double y) {
   return y <= 0 && a * x - b * y >= (a - b) * (a + b);
+}
+
+/// Two chords of the ellipse's quadrant meet at (a, b)/√2: is the point (x, y) further behind both
+/// than this depth?
+inline bool is_behind_chords(double a, double b, double x, double y, double depth) {
+  constexpr double mid = std::numbers::sqrt2 - 1;
+  const double across = a * b - b * x - a * mid * y, along = a * b - b * mid * x - a * y;
+  const double squared = depth * depth;
+  return across > 0 && across * across >= squared * (b * b + mid * mid * a * a) && along > 0 &&
+         along * along >= squared * (a * a + mid * mid * b * b);
 }
 
 /// Unit normals of the first quadrant from `first` on, by their angle from (1, 0), to `last`, or

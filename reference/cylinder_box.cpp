@@ -2,7 +2,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "box_sides.hpp"
 #include "curves.hpp"
@@ -181,16 +180,6 @@ StageResult rim_and_edge(const Frame& p, const EdgeAndRim& at, const Vec2& axis,
   return found;
 }
 
-/// Two chords of the ellipse's quadrant meet at (r, b)/√2: is the point (x, y) further behind both
-/// than the best depth?
-bool is_behind_chords(double r, double b, double x, double y, double best) {
-  constexpr double mid = std::numbers::sqrt2 - 1;
-  const double across = r * b - b * x - r * mid * y, along = r * b - b * mid * x - r * y;
-  const double squared = depth(best) * depth(best);
-  return across > 0 && across * across >= squared * (b * b + mid * mid * r * r) && along > 0 &&
-         along * along >= squared * (r * r + mid * mid * b * b);
-}
-
 /// Seen along the edge, the sum of box and axis is a polygon; on each of its corners sits the cap's
 /// ellipse, with half axes r across the axis and r |u_i| along it.
 StageResult rim_and_edge_along(const Frame& p, int i, double best, double* highest) {
@@ -219,7 +208,7 @@ StageResult rim_and_edge_along(const Frame& p, int i, double best, double* highe
       // The corner's quadrant of normals and the ellipse's must overlap.
       const double aside = across.dot(q);
       if (!((std::copysign(1, aside) * across + end * axis).dot(sign) > 0)) continue;
-      if (is_behind_chords(p.r, b, std::abs(aside), end * axis.dot(q), least)) continue;
+      if (is_behind_chords(p.r, b, std::abs(aside), end * axis.dot(q), depth(least))) continue;
       found.improve(rim_and_edge(p, {i, sign.x(), sign.y(), end}, axis, q, least, highest));
     }
   }

@@ -342,16 +342,6 @@ StageResult side_or_rim_and_vertex(const InHull& p, const Vec3& v, const Vec3& t
   return found;
 }
 
-/// Two chords of the ellipse's quadrant meet at (r, b)/√2: is the point (x, y) further behind both
-/// than the best depth?
-bool is_far_behind_chords(double r, double b, double x, double y, double best) {
-  constexpr double mid = 0.41421356237309505;  // √2 − 1
-  const double across = r * b - b * x - r * mid * y, along = r * b - b * mid * x - r * y;
-  const double squared = depth(best) * depth(best);
-  return across > 0 && across * across >= squared * (b * b + mid * mid * r * r) && along > 0 &&
-         along * along >= squared * (r * r + mid * mid * b * b);
-}
-
 /// By how much another normal along which this edge and a rim face each other may be better than
 /// the best of all that were tried. The edge's normals are an arc of the rim's; `out1` and `out2`
 /// are how a normal's parts aside and ahead count towards it from either face.
@@ -401,7 +391,7 @@ StageResult rim_and_edge(const InHull& p, const SeenAlongEdge& seen, double end,
     return std::max({left.dot(way), seen.edge.middle.dot(way), right.dot(way)}) >= 0;
   };
   if (!points_to(side * seen.aside) || !points_to(end * seen.ahead)) return {};
-  if (is_far_behind_chords(p.r, b, beside, ahead, best)) return {};
+  if (is_behind_chords(p.r, b, beside, ahead, depth(best))) return {};
   const auto foot = ellipse_normal(p.r, b, beside, ahead);
   StageResult found;
   if (foot) {
