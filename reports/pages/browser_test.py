@@ -242,7 +242,7 @@ class Report(PageTest):
     def setUpClass(cls):
         super().setUpClass()
         # Every candidate and class, so that the page is as large as it gets.
-        cls.run_program("report", "--count", "1", "--all-candidates", "--only", "timing,stability,engines",
+        cls.run_program("report", "--count", "1", "--all-candidates", "--only", "timing,casts,stability,engines",
                         "--out", cls.folder.name)
         cls.page = Path(cls.folder.name) / "report.html"
         cls.requested = cls.load(cls.page)
@@ -687,6 +687,16 @@ class Report(PageTest):
         self.driver.execute_script("arguments[0].scrollIntoView({block: 'center'})", picture)
         picture.click()
         self.assertIn("./touchstone replay map/lying/", self.find("#stability .command").text)
+
+    def test_a_cell_of_casts_tells_the_commands_of_its_worst(self):
+        rows = {row.text.split()[0]: row for row in self.all("#cast-matrix tbody tr")}
+        self.assertIn("reference", rows)
+        self.assertNotIn("ode", rows, "which has no casts")
+        cell = rows["bullet"].find_element(By.CSS_SELECTOR, "td")  # of all pairs
+        self.assertRegex(cell.text, r"^\d+\.\d%\s\d+ ")
+        self.driver.execute_script("arguments[0].scrollIntoView({block: 'center'})", cell)
+        cell.click()
+        self.assertRegex(self.find("#cast-command .command").text, "replay cylinder-[a-z]+/.*/[a-z-]+")
 
     def test_drakes_own_numbers_stand_beside_ours(self):
         rows = [row.text for row in self.all("#drake-table tbody tr")]

@@ -220,7 +220,7 @@ if (report.experiments) {
 }
 
 if (report.engines) drawEngines(report.engines);
-byId('motion').hidden = !report.experiments && !report.engines;
+byId('motion').hidden = !report.casts && !report.experiments && !report.engines;
 if (report.stability) drawStability(byId('stability'), report.stability);
 
 // How often each arrangement occurs in the recorded scenes, and how far the bodies are tilted out of it.
