@@ -13,6 +13,7 @@ ELSEWHERE = {
     "python3 oracle/check_certificate_test.py": "check_certificate",
     "python3 oracle/forge_certificates.py": "forge_certificates",
     "apt-get ": "nothing: it needs the network",
+    "./touchstone report --seed 1 --count 20 --group everyday": "engine_table_test.py, a long test",
     "cd out/render": "simulation/scenes/povray_test.cpp, which writes what POV-Ray reads",
 }
 
