@@ -55,7 +55,8 @@ nlohmann::json to_json(const Vec3& v);
 
 /// Help of the option that takes such a name.
 inline constexpr const char* given_help =
-    "pair/class/seed/index (of a cast also /motion), a file with a line as for solve or with a saved failure, or - for "
+    "pair/class/seed/index (of a cast also /motion), a file with a line as for solve or with a "
+    "saved failure, or - for "
     "standard input";
 
 /// What a configuration of standard input has for a name.
