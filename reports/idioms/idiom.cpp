@@ -24,7 +24,8 @@
 namespace touchstone {
 
 // Made by the build from the files tests.*.in of candidates/reproducers.
-extern const std::string_view tests_cpp_template, tests_mjs_template, mjcf_template;
+extern const std::string_view tests_cpp_template, tests_mjs_template, tests_py_template,
+    callable_py_template, mjcf_template;
 
 namespace {
 
@@ -38,20 +39,30 @@ struct Idiom {
 };
 
 const std::vector<Idiom>& all_idioms() {
-  static const std::vector<Idiom> all = {{"gtest",
-                                          cpp,
-                                          tests_cpp_template,
-                                          "@override@",
-                                          {{"program", "cylinder_contacts_test"},
-                                           {"and_libraries", " -lgtest_main -lgtest"},
-                                           {"and_packages", " libgtest-dev"},
-                                           {"override", " override"}}},
-                                         {"doctest", cpp, tests_cpp_template, "@case@", {}},
-                                         {"js",
-                                          javascript,
-                                          tests_mjs_template,
-                                          "@question@",
-                                          {{"program", "cylinder_contacts.test"}}}};
+  static const std::vector<Idiom> all = {
+      {"gtest",
+       cpp,
+       tests_cpp_template,
+       "@override@",
+       {{"program", "cylinder_contacts_test"},
+        {"and_libraries", " -lgtest_main -lgtest"},
+        {"and_packages", " libgtest-dev"},
+        {"override", " override"}}},
+      {"boost",
+       cpp,
+       tests_cpp_template,
+       "@override@",
+       {{"program", "cylinder_contacts_test"},
+        {"and_libraries", ""},
+        {"and_packages", " libboost-dev"},
+        {"override", " override"}}},
+      {"unittest", python, tests_py_template, "", {{"program", "cylinder_contacts_test"}}},
+      {"doctest", cpp, tests_cpp_template, "@case@", {}},
+      {"js",
+       javascript,
+       tests_mjs_template,
+       "@question@",
+       {{"program", "cylinder_contacts.test"}}}};
   return all;
 }
 
@@ -63,7 +74,9 @@ bool fits(const Program& program, const Idiom& idiom) {
          program.source.find(idiom.marker) != program.source.npos;
 }
 
-const Program& program_of(const Idiom& idiom, const std::string& engine) {
+Program program_of(const Idiom& idiom, const std::string& engine) {
+  // Any function of Python, of which the file imports what has the engine's name.
+  if (&idiom.language == &python) return {engine, engine, engine, python, callable_py_template, ""};
   std::vector<std::string_view> names;
   for (const Program& p : programs()) {
     if (!fits(p, idiom)) continue;
@@ -94,6 +107,13 @@ std::string camel_case(std::string_view name) {
     result += word.substr(1);
   }
   return result;
+}
+
+/// "rim_face" of "rim-face", as Python calls it.
+std::string with_underscores(std::string name) {
+  std::replace_if(
+      name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
+  return name;
 }
 
 /// A text as a comment, in lines of 100 columns.
@@ -178,7 +198,12 @@ Texts case_texts(const IdiomCase& c, const std::string& engine, const Idiom& idi
   std::string sentences = of.arrangement->description;
   if (c.verdict != "right") sentences += fmt::format(" {} {}.", engine, deed(c.verdict));
   sentences += fmt::format(" (Rounded from {}.)", to_string(c.identity));
-  texts["sentences"] = comment(idiom.language.remark, sentences);
+  const bool is_python = &idiom.language == &python;  // whose tests have docstrings
+  texts["sentences"] = comment(is_python ? "       " : idiom.language.remark, sentences);
+  texts["title_as_name"] = with_underscores(of.arrangement->name);
+  std::string& vertices = texts["vertices_list"] = texts["vertices_b"];
+  std::replace(vertices.begin(), vertices.end(), '{', '[');
+  std::replace(vertices.begin(), vertices.end(), '}', ']');
   texts["title"] = of.arrangement->name;
   texts["test_name"] = camel_case(of.arrangement->name);
   for (const std::string body : {"a", "b"}) {
@@ -232,7 +257,8 @@ std::vector<std::string> idioms() {
 
 std::string idiom_file(const IdiomRequest& request) {
   const Idiom& idiom = named(all_idioms(), request.idiom, "--as");
-  const Program& program = program_of(idiom, request.engine);
+  const bool is_python = &idiom.language == &python;
+  const Program program = program_of(idiom, request.engine);
   const Candidate* const candidate = installed(program);
   std::unique_ptr<CandidateProcess> process;
   IdiomQuestion question{{}, request.seed, request.limit, request.bar, false, {}};
@@ -247,7 +273,7 @@ std::string idiom_file(const IdiomRequest& request) {
   const auto has = [&](std::string_view tag) {
     return std::find(tags.begin(), tags.end(), tag) != tags.end();
   };
-  question.is_single = has("float");
+  question.is_single = has("float") || (candidate && candidate->precision == "float");
   const Habit habit = habit_of(program, tags);
   if (candidate) {
     process = std::make_unique<CandidateProcess>(*candidate, request.bar.threshold, request.limits);
@@ -265,7 +291,10 @@ std::string idiom_file(const IdiomRequest& request) {
   texts.merge(Texts{{"engine", std::string(program.title)},
                     {"engine_version", version},
                     {"command", command_of(request)},
-                    {"single_precision", question.is_single ? "true" : "false"},
+                    {"module", with_underscores(request.engine)},
+                    {"single_precision", is_python ? question.is_single ? "True" : "False"
+                                         : question.is_single ? "true"
+                                                              : "false"},
                     {"axis_name", std::string(1, habit.axis)},
                     {"axis", habit.axis == 'x'   ? "1, 0, 0"
                              : habit.axis == 'y' ? "0, 1, 0"
@@ -329,7 +358,8 @@ std::string idiom_file(const IdiomRequest& request) {
         symbolic["mjcf"] = fill_template(mjcf_template, of_case, symbolic);
       }
       const std::string lines = fill_template(asking, of_case, symbolic);
-      texts["asking"] = indented(lines.substr(lines.find_first_not_of('\n')), "  ");
+      texts["asking"] =
+          indented(lines.substr(lines.find_first_not_of('\n')), is_python ? "    " : "  ");
       file += '\n' + frame("pair", of_case) + '\n';
     }
     file += '\n' + frame("case", of_case) + '\n';

@@ -12,8 +12,46 @@ import subprocess
 import sys
 import tempfile
 
-EXPECTED = {"gtest": r'(EXPECT_EQ\(verdict\(\), )"([a-z-]+)"', "js": r"(\), |reachOf\w+\), )'([a-z-]+)'(?=\);)"}
-NAMES = {"gtest": r"^TEST_F\((\w+), (\w+)\)", "js": r"^test\('(\S+) (\S+)'"}
+EXPECTED = {"gtest": r'(EXPECT_EQ\(verdict\(\), )"([a-z-]+)"', "boost": r'(BOOST_CHECK_EQUAL\(verdict\(\), )"([a-z-]+)"',
+            "unittest": r'( expected=)"([a-z-]+)"', "js": r"(\), |reachOf\w+\), )'([a-z-]+)'(?=\);)"}
+NAMES = {"gtest": r"^TEST_F\((\w+), (\w+)\)", "boost": r"^BOOST_FIXTURE_TEST_CASE\((\w+?)_(\w+), ",
+         "unittest": r"^(?:class (\w+)\(CylinderContact\)|    def test_(\w+)\()", "js": r"^test\('(\S+) (\S+)'"}
+FAILED = {"gtest": r"^\[  FAILED  \] (\w+\.\w+)", "boost": r'error: in "(\w+)"',
+          "unittest": r"^FAIL: test_(\w+) \(\w+\.(\w+)", "js": r"^not ok \d+ - (\S+ \S+)"}
+
+# The module that a file of unittest imports: the engine of candidates/clients with half of its depths, so that it is
+# wrong wherever bodies overlap; or our routine. As a program it is the candidate.
+MODULE = """
+import json, os, subprocess, sys
+sys.path.append("@clients@")
+from example import Example
+from touchstone_candidate import Box, Capsule, Convex, Cylinder, Plane, Pose, Sphere, run
+
+class Shallow(Example):
+    name = "shallow"
+    def contact(self, distance, *rest):
+        return super().contact(distance / 2, *rest)
+
+KINDS = {"plane": Plane, "sphere": Sphere, "capsule": Capsule, "cylinder": Cylinder, "box": Box, "convex": Convex}
+
+def contact(a, pose_a, b, pose_b, threshold):
+    if os.environ.get("RIGHT"):
+        line = json.dumps({"a": a, "pose_a": pose_a, "b": b, "pose_b": pose_b})
+        printed = subprocess.run([os.environ["TOUCHSTONE"], "solve", "--candidates", "reference"], input=line,
+                                 check=True, capture_output=True, text=True).stdout
+        found = json.loads(printed)["answers"]["reference"]
+        if found["status"] == "none":
+            return None
+        return found["signed_distance"], found["normal"], [(p["position"], p["depth"]) for p in found["points"]]
+    shapes = [KINDS[s["shape"]](*[v for k, v in s.items() if k != "shape"]) for s in (a, b)]
+    poses = [Pose(p["position"], p["orientation"]) for p in (pose_a, pose_b)]
+    engine = Shallow()
+    found = engine.query(engine.prepare(*shapes, threshold, 0), *poses, None)
+    return found and (found.signed_distance, found.normal, [(p.position, p.depth) for p in found.points])
+
+if __name__ == "__main__":
+    run(Shallow)
+"""
 
 # Our routine in the place of the engine's answer.
 HEADERS_CPP = '#include "reference/touchstone.hpp"\n#include <cstdlib>\n\n'
@@ -68,18 +106,29 @@ function rightAnswer(c, name) {
 class File:
     def __init__(self, program, source, idiom, engine, options, folder):
         self.program, self.source, self.idiom, self.folder = program, source, idiom, folder
-        self.text = subprocess.run([program, "export", "--as", idiom, "--engine", engine, *options],
+        command = []
+        if idiom == "unittest":
+            module = folder / f"{engine}.py"
+            module.write_text(MODULE.replace("@clients@", os.path.join(os.path.abspath(source), "candidates/clients")))
+            command = ["--candidate-command", f"{sys.executable} {module}"]
+        self.text = subprocess.run([program, *command, "export", "--as", idiom, "--engine", engine, *options],
                                    check=True, capture_output=True, text=True).stdout
-        self.names = [".".join(name) for name in re.findall(NAMES[idiom], self.text, re.MULTILINE)]
+        self.names, parent = [], ""
+        for of, name in re.findall(NAMES[idiom], self.text, re.MULTILINE):
+            parent = of or parent
+            if name:
+                self.names.append(f"{parent}.{name}")
         verdicts = [m[2] for m in re.finditer(EXPECTED[idiom], self.text)]
         assert len(verdicts) == len(self.names) > 0, (len(verdicts), self.names)
         self.wrong = {name for name, verdict in zip(self.names, verdicts) if verdict != "right"}
 
     def struck_out(self):
         """Every case is expected to be right, and our routine may answer instead."""
-        quote = '"' if self.idiom == "gtest" else "'"
+        quote = "'" if self.idiom == "js" else '"'
         text = re.sub(EXPECTED[self.idiom], rf"\1{quote}right{quote}", self.text)
-        if self.idiom == "gtest":
+        if self.idiom == "unittest":
+            return text  # its module answers by our routine
+        if self.idiom != "js":
             text = text.replace("namespace {\n", HEADERS_CPP + "namespace {\n", 1)
             text = text.replace(" protected:\n", " public:\n")
             text = text.replace("template <int count>", RIGHT_CPP + "template <int count>", 1)
@@ -101,6 +150,10 @@ class File:
                 link.symlink_to(pathlib.Path(os.environ["TOUCHSTONE_NPM"]) / "node_modules" / package)
             (self.folder / program).write_text(text)
             return ["node", "--test-reporter=tap", program]
+        if self.idiom == "unittest":
+            program = re.search(r"python3 -m unittest -v (\S+)", self.text)[1]
+            (self.folder / program).write_text(text)
+            return [sys.executable, "-Bm", "unittest", "-v", program]
         command = re.search(r"^// Compile  (.*)", self.text, re.MULTILINE)[1]
         name = re.search(r"g\+\+ -O2 (\S+)", command)[1]
         classes = re.split(r"(?=^class Cylinder)", text, flags=re.MULTILINE)
@@ -111,20 +164,26 @@ class File:
             library = pathlib.Path(self.program).parent / "reference/libtouchstone_reference.a"
             command += f" -std=c++20 -I {self.source} -isystem /usr/include/eigen3 {library}"
         subprocess.run(command, shell=True, check=True, cwd=self.folder)
-        return ["./" + name.removesuffix(".cpp")]
+        every = ["--log_level=test_suite"] if self.idiom == "boost" else []  # names those that pass
+        return ["./" + name.removesuffix(".cpp"), *every]
 
     def failures(self, command, **environment):
         """Names of the tests that fail."""
         environment = {**os.environ, "TOUCHSTONE": self.program, **environment}
-        result = subprocess.run(command, cwd=self.folder, capture_output=True, text=True, env=environment)
-        pattern = r"^\[  FAILED  \] (\w+\.\w+)" if self.idiom == "gtest" else r"^not ok \d+ - (\S+ \S+)"
-        failed = {name.replace(" ", ".") for name in re.findall(pattern, result.stdout, re.MULTILINE)}
-        assert (result.returncode != 0) == bool(failed), result.stdout + result.stderr
+        result = subprocess.run(command, cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                                text=True, env=environment)
+        found = re.findall(FAILED[self.idiom], result.stdout, re.MULTILINE)
+        if self.idiom == "unittest":
+            failed = {f"{of}.{name}" for name, of in found}
+        else:
+            failed = {name.replace("_" if self.idiom == "boost" else " ", ".", 1) for name in found}
+        assert (result.returncode != 0) == bool(failed), result.stdout
         assert all(name in result.stdout for name in map(self.printed, self.names)), result.stdout
         return failed
 
     def printed(self, name):
-        return name if self.idiom == "gtest" else name.replace(".", " ")
+        separator = {"gtest": ".", "boost": "_", "js": " "}
+        return name.replace(".", separator[self.idiom]) if self.idiom in separator else "test_" + name.split(".")[1]
 
 
 def main(program, source, idiom, engine, *options):
