@@ -180,7 +180,7 @@ TEST_P(CertifiedOfUneven, TheTruthIsWithinTheBoundWhichIsNoMoreThanRounding) {
               parts.back());
 }
 
-INSTANTIATE_TEST_SUITE_P(, CertifiedOfUneven, testing::ValuesIn(pairs_of_sizes), name_of_other);
+INSTANTIATE_TEST_SUITE_P(, CertifiedOfUneven, testing::ValuesIn(all_pairs), name_of_other);
 
 FoldedCylinders folded_cylinders(const Configuration& c) {
   const Cylinder& b = std::get<Cylinder>(c.b);

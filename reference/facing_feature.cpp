@@ -24,8 +24,8 @@ FacingFeature facing(const PosedCylinder& body, const Vec3& outward, double slac
   const auto u = body.axis();
   const Vec3& c = body.centre;
   const double along = u.x() * outward.x() + u.y() * outward.y() + u.z() * outward.z();
-  const double x = outward.x() - along * u.x(), y = outward.y() - along * u.y();
-  const double z = outward.z() - along * u.z();
+  double x = outward.x() - along * u.x(), y = outward.y() - along * u.y();
+  double z = outward.z() - along * u.z();
   const double end = std::copysign(body.half_length, along);
   FacingFeature feature;
   feature.sine = std::sqrt(x * x + y * y + z * z);
@@ -42,6 +42,11 @@ FacingFeature facing(const PosedCylinder& body, const Vec3& outward, double slac
     feature.radius = body.radius;
     place_middle(end, 0);
     return feature;
+  }
+  constexpr double all_but_level = 1e-4;
+  if (feature.sine < all_but_level) {  // of so short a vector rounding is no small part, along u, too
+    const double rest = x * u.x() + y * u.y() + z * u.z();
+    x -= rest * u.x(), y -= rest * u.y(), z -= rest * u.z();
   }
   const double arm = body.radius / feature.sine;
   if (const double part = facing_part(body.half_length, along, slack); part > 0) {

@@ -77,12 +77,14 @@ double max_depth(const Contact& contact) {
   return depth;
 }
 
-/// How far a point of a contact with this normal lies off either body.
+/// How far a point of a contact with this normal lies off either body, but for what its place in the
+/// world is rounded by.
 template <class Body>
 double off_bodies(const ContactPoint& p, const Vec3& n, const PosedCylinder& a, const Body& b,
                   const Vec3& origin) {
   const Vec3 x = p.position - origin, half = p.depth / 2 * n;
-  return std::max(outside(a, x - half), outside(b, x + half));
+  const double rounding = std::numeric_limits<double>::epsilon() * p.position.cwiseAbs().sum();
+  return std::max(outside(a, x - half), outside(b, x + half)) - rounding;
 }
 
 /// Of a hull whose faces lie nearly in one plane, or whose vertices nearly coincide, several
@@ -184,8 +186,11 @@ template <class Body>
 bool are_on_both(const Contact& contact, const PosedCylinder& a, const PosedConvex& b,
                  const Vec3& origin, const Margins& margins) {
   const double largest = std::max(extents(a).largest, extents(b).largest);
-  constexpr double slant = 50;  // slack over size, half squared: 1e-3 is a slant of 1e-2
-  const double tolerance = margins.unseen_depth() + slant * margins.slack * margins.slack / largest;
+  // Slack over size, half squared: 1e-3 is a slant of 1e-2; and what leans by a tenth, half squared.
+  constexpr double slant = 50, most = 0.005;
+  const double tolerance =
+      margins.unseen_depth() +
+      std::min(slant * margins.slack * margins.slack / largest, most * largest);
   return std::all_of(contact.points().begin(), contact.points().end(), [&](const ContactPoint& p) {
     return off_bodies(p, contact.normal, a, b, origin) <= tolerance;
   });

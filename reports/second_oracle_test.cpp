@@ -21,6 +21,7 @@
 #include "oracle/truth.hpp"
 #include "properties/files/configuration_json.hpp"
 #include "properties/identity.hpp"
+#include "properties/numbers.hpp"
 #include "reference/random_bodies_test.hpp"
 #include "reports/solve.hpp"
 
@@ -185,35 +186,15 @@ TEST_P(Certificates, OfRoundedBodiesAreAcceptedAndEncloseTheTruth) {
   folder.expect_accepted(count);
 }
 
-/// The configuration with every length times 2^exponent.
-Configuration scaled(const Configuration& c, int exponent) {
-  const json unscaled = to_json(c);
-  json result = unscaled;
-  const auto scale = [&](const std::string& pointer) {
-    json& number = result.at(json::json_pointer(pointer));
-    number = std::ldexp(number.get<double>(), exponent);
-  };
-  for (const std::string body : {"a", "b"}) {
-    for (const auto& [name, value] : unscaled[body].items()) {
-      if (name == "shape" || name == "normal") continue;
-      for (std::size_t i = 0; i < value.size() && value.is_array(); ++i) {
-        scale("/" + body + "/" + name + "/" + std::to_string(i));
-      }
-      if (value.is_number()) scale("/" + body + "/" + name);
-    }
-    for (const char* i : {"0", "1", "2"}) scale("/pose_" + body + "/position/" + i);
-  }
-  return configuration_from_json(result).configuration;
-}
-
 TEST_P(CertificatesOfExtremes, OfTheSmallestAndLargestLengthsAreAccepted) {
   const Folder folder;
   std::size_t count = 0;
   for (const char* pose_class : {"general-deep", "general-shallow", "general-separated"}) {
     // Lengths between 2^-8 and 2^4 become denormal, or reach the largest doubles.
     for (const int exponent : {-1066, -1020, 1000, 1019}) {
-      const Configuration c =
-          scaled(make_configuration({GetParam(), pose_class, 20261122, 0}), exponent);
+      Numbers numbers = numbers_of(make_configuration({GetParam(), pose_class, 20261122, 0}));
+      scale_both(numbers, exponent);
+      const Configuration c = configuration_of(numbers);
       folder.write(pose_class + std::to_string(exponent),
                    certificate_json(audit::certify(c, budget), c));
       ++count;
@@ -245,8 +226,7 @@ TEST_P(CertificatesOfExtremes, OfMixedExtremesAreAccepted) {
 }
 
 INSTANTIATE_TEST_SUITE_P(, Certificates, testing::ValuesIn(all_pairs), name_of_other);
-INSTANTIATE_TEST_SUITE_P(, CertificatesOfExtremes, testing::ValuesIn(pairs_of_sizes),
-                         name_of_other);
+INSTANTIATE_TEST_SUITE_P(, CertificatesOfExtremes, testing::ValuesIn(all_pairs), name_of_other);
 
 }  // namespace
 }  // namespace touchstone
