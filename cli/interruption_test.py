@@ -167,9 +167,16 @@ def ctrl_c_after_timing(program, folder):
     assert "PARTIAL" in run.printed
 
 
+def children_of(pid):
+    return [int(child) for thread in os.listdir(f"/proc/{pid}/task")
+            for child in open(f"/proc/{pid}/task/{thread}/children").read().split()]
+
+
 def ctrl_c_twice(program, folder):
-    run = Run(program, folder, "--count", "5000")  # so that what is begun takes long
-    run.wait_for(r"of \d{7,} configurations")
+    run = Run(program, folder, "--count", "5000")
+    run.wait_for(r"[1-9]\d* of \d{7,} configurations")
+    for worker in children_of(run.pid):
+        os.kill(worker, signal.SIGSTOP)  # what they have begun never ends
     run.ctrl_c()
     run.wait_for("once more")
     os.kill(run.pid, signal.SIGTERM)  # a second Ctrl-C at once would be the same request

@@ -3,7 +3,6 @@
 //
 // TOUCHSTONE_COUNT sets how many configurations of each class are certified; by default, for CI,
 // one of every fourth class.
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
