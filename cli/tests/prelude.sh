@@ -7,7 +7,9 @@ unset COLUMNS
 program=$(readlink -f "$1")
 source_folder=$(readlink -f "$(dirname "${BASH_SOURCE[0]}")/../..")
 folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
+here=$(mktemp -d)  # in which no other script writes the folder `out`
+trap 'rm -rf "$folder" "$here"' EXIT
+cd "$here" || exit 1
 failures=0
 
 # One configuration, and one cheap pose class.
