@@ -43,8 +43,9 @@ FacingFeature facing(const PosedCylinder& body, const Vec3& outward, double slac
     place_middle(end, 0);
     return feature;
   }
+  // Of so short a vector rounding is no small part, along the axis, too.
   constexpr double all_but_level = 1e-4;
-  if (feature.sine < all_but_level) {  // of so short a vector rounding is no small part, along u, too
+  if (feature.sine < all_but_level) {
     const double rest = x * u.x() + y * u.y() + z * u.z();
     x -= rest * u.x(), y -= rest * u.y(), z -= rest * u.z();
   }

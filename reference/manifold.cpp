@@ -77,8 +77,8 @@ double max_depth(const Contact& contact) {
   return depth;
 }
 
-/// How far a point of a contact with this normal lies off either body, but for what its place in the
-/// world is rounded by.
+/// How far a point of a contact with this normal lies off either body, but for what its place in
+/// the world is rounded by.
 template <class Body>
 double off_bodies(const ContactPoint& p, const Vec3& n, const PosedCylinder& a, const Body& b,
                   const Vec3& origin) {
@@ -186,8 +186,8 @@ template <class Body>
 bool are_on_both(const Contact& contact, const PosedCylinder& a, const PosedConvex& b,
                  const Vec3& origin, const Margins& margins) {
   const double largest = std::max(extents(a).largest, extents(b).largest);
-  // Slack over size, half squared: 1e-3 is a slant of 1e-2; and what leans by a tenth, half squared.
-  constexpr double slant = 50, most = 0.005;
+  constexpr double slant = 50;    // slack over size, half squared: 1e-3 is a slant of 1e-2
+  constexpr double most = 0.005;  // half of a tenth squared, by which features lean at most
   const double tolerance =
       margins.unseen_depth() +
       std::min(slant * margins.slack * margins.slack / largest, most * largest);
