@@ -311,4 +311,17 @@ TEST(PreviousNormal, OffTheLineBetweenParallelSidesLeavesTheirEndsAsLongAsTheyFa
 }
 
 }  // namespace
+// The way to a rim that all but faces a surface is short, and rounding is along the axis, too.
+TEST(FacingFeature, ARimThatLeansByAHairLiesInItsCap) {
+  Random random(7);
+  const Cylinder cylinder(0.7, 0.4);
+  for (int i = 0; i < 2000; ++i) {
+    const Pose pose(Vec3::Zero(), random.turn());
+    const Vec3 aside = random.sign() * pose.rotation().col(0);
+    const Vec3 outward = (pose.axis() + random.power_of_ten(-12, -6) * aside).normalized();
+    const FacingFeature rim = facing(posed(cylinder, pose, Vec3::Zero()), outward, 1e-15);
+    EXPECT_NEAR(rim.middle.dot(pose.axis()), cylinder.half_length(), 1e-14);
+  }
+}
+
 }  // namespace touchstone
