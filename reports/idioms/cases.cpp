@@ -1,9 +1,11 @@
 #include "reports/idioms/cases.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <span>
 #include <utility>
 #include <variant>
 
@@ -22,6 +24,11 @@ namespace {
 constexpr std::uint64_t draws = 12;
 /// Steps by which a case is made simpler after its numbers are rounded.
 constexpr int simpler_trials = 60;
+/// Places that are rounded otherwise than the origin, metres.
+const std::array<Vec3, 3> places = {Vec3(8, 56, 0), Vec3(24, 8, 0), Vec3(-0.3, 40, 0.1)};
+Pose placed(const Pose& pose, const Vec3& place) {
+  return {pose.position() + place, pose.orientation()};
+}
 /// Are all lengths floats? Of orientations only those by quarters and thirds of a turn can be.
 bool in_float(const Configuration& c) {
   const Numbers numbers = numbers_of(c);
@@ -82,6 +89,11 @@ class Chooser {
     result.verdict = idiom_verdict(c, distance, tolerance, answer);
     for (const double factor : {1 / sure, sure}) {
       if (idiom_verdict(c, distance, factor * tolerance, answer) != result.verdict) return {};
+    }
+    for (const Vec3& place : question_.is_moved ? places : std::span<const Vec3>()) {
+      const Configuration moved{c.a, placed(c.pose_a, place), c.b, placed(c.pose_b, place)};
+      if (idiom_verdict(moved, distance, tolerance, question_.ask(moved)) != result.verdict)
+        return {};
     }
     const Outcome outcome = score(c, result.truth, answer, question_.bar).outcome;
     const char* const reported = agrees(outcome) ? "right" : outcome_name(outcome);

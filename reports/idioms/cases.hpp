@@ -33,6 +33,8 @@ struct IdiomQuestion {
   std::uint64_t seed, limit;
   Bar bar;
   bool is_single;  ///< does the engine compute in float?
+  /// Do the bodies stand elsewhere in the file? Then no verdict may hang on how that is rounded.
+  bool is_moved = false;
   /// What the engine answers to a case; null where it cannot be asked: nothing is known of it then.
   std::function<Answer(const Configuration&)> ask;
 };

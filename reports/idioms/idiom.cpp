@@ -14,6 +14,7 @@
 #include "properties/named.hpp"
 #include "properties/pose_class.hpp"
 #include "reference/invalid_input.hpp"
+#include "reference/support.hpp"
 #include "reports/idioms/axes.hpp"
 #include "reports/idioms/cases.hpp"
 #include "reports/replay.hpp"
@@ -25,7 +26,7 @@ namespace touchstone {
 
 // Made by the build from the files tests.*.in of candidates/reproducers.
 extern const std::string_view tests_cpp_template, tests_mjs_template, tests_py_template,
-    callable_py_template, mjcf_template;
+    tests_mjcf_template, callable_py_template, mjcf_template;
 
 namespace {
 
@@ -37,6 +38,10 @@ struct Idiom {
   std::string_view marker;  ///< that a program's template has if it can be written so
   Texts texts;              ///< of every file
 };
+
+/// A model of MuJoCo has no program: its file is what stands before the first case, and the cases.
+const Language model_language = {"mjcf", "", tests_mjcf_template, NumberStyle::decimal};
+constexpr std::string_view model_source = "@head@\n@question@@judgement@";
 
 const std::vector<Idiom>& all_idioms() {
   static const std::vector<Idiom> all = {
@@ -58,17 +63,15 @@ const std::vector<Idiom>& all_idioms() {
         {"override", " override"}}},
       {"unittest", python, tests_py_template, "", {{"program", "cylinder_contacts_test"}}},
       {"doctest", cpp, tests_cpp_template, "@case@", {}},
-      {"js",
-       javascript,
-       tests_mjs_template,
-       "@question@",
-       {{"program", "cylinder_contacts.test"}}}};
+      {"js", javascript, tests_mjs_template, "@question@", {{"program", "cylinder_contacts.test"}}},
+      {"mjcf", model_language, tests_mjcf_template, "", {}}};
   return all;
 }
 
 /// Can its part that asks stand in a class, or a function, of its own for each pair? Jolt's world
 /// keeps the bodies of earlier cases, and its margins are of no usual world.
 bool fits(const Program& program, const Idiom& idiom) {
+  if (&idiom.language == &model_language) return program.title == "MuJoCo";
   return &program.language == &idiom.language && program.engine != "jolt-margin" &&
          program.engine != "jolt-world" && !has_floor(program) &&
          program.source.find(idiom.marker) != program.source.npos;
@@ -80,8 +83,11 @@ Program program_of(const Idiom& idiom, const std::string& engine) {
   std::vector<std::string_view> names;
   for (const Program& p : programs()) {
     if (!fits(p, idiom)) continue;
-    if (p.engine == engine) return p;
-    names.push_back(p.engine);
+    if (p.engine == engine) {
+      if (&idiom.language != &model_language) return p;
+      return {p.engine, p.candidate, p.title, model_language, model_source, p.tags};
+    }
+    if (names.empty() || names.back() != p.engine) names.push_back(p.engine);
   }
   throw InvalidInput(
       "--engine", in_quotes(engine),
@@ -168,6 +174,45 @@ Habit habit_of(const Program& program, const Tags& tags) {
   return {has("x") ? 'x' : has("y") ? 'y' : 'z', program.title == "MuJoCo"};
 }
 
+std::string xml_escaped(std::string_view text) {
+  std::string result;
+  for (const char c : text) {
+    result += c == '"' ? "&quot;" : c == '<' ? "&lt;" : c == '&' ? "&amp;" : std::string(1, c);
+  }
+  return result;
+}
+
+/// The vector without components that are rounding errors, of a zero's sign.
+Vec3 without_noise(const Vec3& v, double zero) {
+  return v.unaryExpr([zero](double x) { return std::abs(x) < negligible_component ? zero : x; });
+}
+
+/// All optimal normals, their components with spaces.
+std::string normals_in_words(const oracle::Truth& truth) {
+  std::vector<double> numbers;
+  for (const oracle::OptimalNormal& optimal : truth.normals) {
+    const Vec3 n = without_noise(optimal.n, 0.0);
+    numbers.insert(numbers.end(), n.begin(), n.end());
+  }
+  return fmt::format("{}", fmt::join(numbers, " "));
+}
+
+/// Half of the side of a square about the origin, seen along z, that the bodies stand in, metres: a
+/// power of two, so that few places of such squares are rounded. Half-spaces stand in all.
+double half_square(const std::vector<IdiomCase>& cases) {
+  double reach = 0;
+  for (const IdiomCase& c : cases) {
+    for (const Vec3& way :
+         std::array<Vec3, 4>{Vec3::UnitX(), -Vec3::UnitX(), Vec3::UnitY(), -Vec3::UnitY()}) {
+      const Configuration& bodies = c.configuration;
+      reach = std::max(reach, support(bodies.a, bodies.pose_a, way));
+      if (pair_of(bodies) == Pair::plane) continue;
+      reach = std::max(reach, support(bodies.b, bodies.pose_b, way));
+    }
+  }
+  return std::exp2(std::ceil(std::log2(reach)));
+}
+
 /// What stands for numbers in the part that asks, where they are a case's.
 Texts names_in_javascript() {
   Texts texts;
@@ -199,7 +244,11 @@ Texts case_texts(const IdiomCase& c, const std::string& engine, const Idiom& idi
   if (c.verdict != "right") sentences += fmt::format(" {} {}.", engine, deed(c.verdict));
   sentences += fmt::format(" (Rounded from {}.)", to_string(c.identity));
   const bool is_python = &idiom.language == &python;  // whose tests have docstrings
-  texts["sentences"] = comment(is_python ? "       " : idiom.language.remark, sentences);
+  const bool is_model = &idiom.language == &model_language;
+  texts["sentences"] = is_model ? xml_escaped(sentences)
+                                : comment(is_python ? "       " : idiom.language.remark, sentences);
+  texts["name"] = fmt::format("{}/{}", pair_name(of.pair), of.arrangement->name);
+  texts["true_normals"] = normals_in_words(c.truth);
   texts["title_as_name"] = with_underscores(of.arrangement->name);
   std::string& vertices = texts["vertices_list"] = texts["vertices_b"];
   std::replace(vertices.begin(), vertices.end(), '{', '[');
@@ -219,9 +268,7 @@ Texts case_texts(const IdiomCase& c, const std::string& engine, const Idiom& idi
 /// What the tests of Jolt have beside that, whose judge is in each.
 Texts jolt_texts(const IdiomCase& c, const Bar& bar) {
   Texts texts = truth_texts(c.configuration, c.truth, bar, NumberStyle::hexadecimal);
-  const Vec3 axis = -renamed(c.truth.normals.front().n, 'y').unaryExpr([](double x) {
-    return std::abs(x) < negligible_component ? -0.0 : x;
-  });
+  const Vec3 axis = -without_noise(renamed(c.truth.normals.front().n, 'y'), -0.0);
   texts["true_axis_float"] =
       fmt::format("{:#.9g}f, {:#.9g}f, {:#.9g}f", axis.x(), axis.y(), axis.z());
   texts["allowed_float"] = fmt::format("{:#.2g}f", c.float_tolerance);
@@ -261,7 +308,7 @@ std::string idiom_file(const IdiomRequest& request) {
   const Program program = program_of(idiom, request.engine);
   const Candidate* const candidate = installed(program);
   std::unique_ptr<CandidateProcess> process;
-  IdiomQuestion question{{}, request.seed, request.limit, request.bar, false, {}};
+  IdiomQuestion question{{}, request.seed, request.limit, request.bar, false, false, {}};
   for (const Pair pair : request.pairs) {
     if (knows(program, pair)) question.pairs.push_back(pair);
   }
@@ -274,6 +321,7 @@ std::string idiom_file(const IdiomRequest& request) {
     return std::find(tags.begin(), tags.end(), tag) != tags.end();
   };
   question.is_single = has("float") || (candidate && candidate->precision == "float");
+  question.is_moved = &idiom.language == &model_language;
   const Habit habit = habit_of(program, tags);
   if (candidate) {
     process = std::make_unique<CandidateProcess>(*candidate, request.bar.threshold, request.limits);
@@ -310,6 +358,8 @@ std::string idiom_file(const IdiomRequest& request) {
     result.push_back(name.substr(name.find('-') + 1));
     return result;
   };
+  // MuJoCo 2 leaves contacts out for which it has no room: Touchstone's own have at most eight points.
+  texts["room"] = std::to_string(8 * cases.size());
   Tags of_all = tags;
   for (const IdiomCase& c : cases) {
     for (const std::string_view tag : tags_of(c)) of_all.push_back(tag);
@@ -320,6 +370,7 @@ std::string idiom_file(const IdiomRequest& request) {
   texts["answer"] = fill_template(section(idiom.language.shared, "answer"), of_all, texts);
   texts["head"] = frame("head", of_all);
   const bool is_doctest = idiom.name == "doctest";
+  const bool is_model = &idiom.language == &model_language;
   const std::string_view asked = is_doctest ? "@case@" : "@question@";
   const std::string_view judged = is_doctest ? "@end@" : "@judgement@";
   const std::string_view source = program.source;
@@ -328,7 +379,10 @@ std::string idiom_file(const IdiomRequest& request) {
   const std::string_view asking =
       source.substr(question_at + asked.size(), source.find(judged) - question_at - asked.size());
   std::string file = fill_template(once, of_all, texts) + '\n';
-  if (!is_doctest) file += '\n' + frame("judge", of_all) + '\n';
+  if (!is_doctest && !is_model) file += '\n' + frame("judge", of_all) + '\n';
+  const double side = is_model ? 2 * half_square(cases) : 0;
+  constexpr int in_row = 8;  // of the squares of a model's cases
+  int square = 0;
   std::string shape;
   for (const IdiomCase& c : cases) {
     for (auto& [name, text] :
@@ -349,7 +403,9 @@ std::string idiom_file(const IdiomRequest& request) {
                       indented(texts["sentences"], "\t"), fill_template(asking, of_case, texts));
       continue;
     }
-    if (texts["shape_b"] != shape) {
+    texts["place"] = fmt::format("{} {} 0", square % in_row * side, square / in_row * side);
+    ++square;
+    if (!is_model && texts["shape_b"] != shape) {
       shape = texts["shape_b"];
       Texts symbolic = texts;
       if (&idiom.language == &javascript) {

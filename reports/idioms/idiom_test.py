@@ -13,11 +13,13 @@ import sys
 import tempfile
 
 EXPECTED = {"gtest": r'(EXPECT_EQ\(verdict\(\), )"([a-z-]+)"', "boost": r'(BOOST_CHECK_EQUAL\(verdict\(\), )"([a-z-]+)"',
-            "unittest": r'( expected=)"([a-z-]+)"', "js": r"(\), |reachOf\w+\), )'([a-z-]+)'(?=\);)"}
+            "unittest": r'( expected=)"([a-z-]+)"', "mjcf": r'(\.verdict" data=)"([a-z-]+)"', "js": r"(\), |reachOf\w+\), )'([a-z-]+)'(?=\);)"}
 NAMES = {"gtest": r"^TEST_F\((\w+), (\w+)\)", "boost": r"^BOOST_FIXTURE_TEST_CASE\((\w+?)_(\w+), ",
-         "unittest": r"^(?:class (\w+)\(CylinderContact\)|    def test_(\w+)\()", "js": r"^test\('(\S+) (\S+)'"}
+         "unittest": r"^(?:class (\w+)\(CylinderContact\)|    def test_(\w+)\()", "js": r"^test\('(\S+) (\S+)'",
+         "mjcf": r'<pair name="(\S+)/(\S+)"'}
 FAILED = {"gtest": r"^\[  FAILED  \] (\w+\.\w+)", "boost": r'error: in "(\w+)"',
-          "unittest": r"^FAIL: test_(\w+) \(\w+\.(\w+)", "js": r"^not ok \d+ - (\S+ \S+)"}
+          "unittest": r"^FAIL: test_(\w+) \(\w+\.(\w+)", "js": r"^not ok \d+ - (\S+ \S+)",
+          "mjcf": r"^FAILED (\S+):"}
 
 # The module that a file of unittest imports: the engine of candidates/clients with half of its depths, so that it is
 # wrong wherever bodies overlap; or our routine. As a program it is the candidate.
@@ -126,8 +128,8 @@ class File:
         """Every case is expected to be right, and our routine may answer instead."""
         quote = "'" if self.idiom == "js" else '"'
         text = re.sub(EXPECTED[self.idiom], rf"\1{quote}right{quote}", self.text)
-        if self.idiom == "unittest":
-            return text  # its module answers by our routine
+        if self.idiom in ("unittest", "mjcf"):
+            return text  # what its module, or its reader, answers by our routine
         if self.idiom != "js":
             text = text.replace("namespace {\n", HEADERS_CPP + "namespace {\n", 1)
             text = text.replace(" protected:\n", " public:\n")
@@ -154,6 +156,9 @@ class File:
             program = re.search(r"python3 -m unittest -v (\S+)", self.text)[1]
             (self.folder / program).write_text(text)
             return [sys.executable, "-Bm", "unittest", "-v", program]
+        if self.idiom == "mjcf":
+            (self.folder / "contacts.xml").write_text(text)
+            return [pathlib.Path(self.program).parent / "reports/idioms/mjcf_reader", "contacts.xml"]
         command = re.search(r"^// Compile  (.*)", self.text, re.MULTILINE)[1]
         name = re.search(r"g\+\+ -O2 (\S+)", command)[1]
         classes = re.split(r"(?=^class Cylinder)", text, flags=re.MULTILINE)
@@ -176,13 +181,13 @@ class File:
         if self.idiom == "unittest":
             failed = {f"{of}.{name}" for name, of in found}
         else:
-            failed = {name.replace("_" if self.idiom == "boost" else " ", ".", 1) for name in found}
+            failed = {re.sub("[_ /]", ".", name, count=1) for name in found}
         assert (result.returncode != 0) == bool(failed), result.stdout
         assert all(name in result.stdout for name in map(self.printed, self.names)), result.stdout
         return failed
 
     def printed(self, name):
-        separator = {"gtest": ".", "boost": "_", "js": " "}
+        separator = {"gtest": ".", "boost": "_", "js": " ", "mjcf": "/"}
         return name.replace(".", separator[self.idiom]) if self.idiom in separator else "test_" + name.split(".")[1]
 
 
