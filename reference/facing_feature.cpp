@@ -147,10 +147,12 @@ FacingFeature facing(const PosedConvex& body, const Vec3& outward, double slack)
   feature.sine = 1;
   const ConvexTables::Facet* facet = nullptr;
   double least = std::numeric_limits<double>::infinity();
+  constexpr double leans_too_far = 0.99;  // for `part_of_flat`
   for (const int f : hull.vertex_facets.of(top)) {
     const ConvexTables::Facet& other = hull.facets[static_cast<std::size_t>(f)];
+    if (!(other.normal.dot(n) > leans_too_far)) continue;
     const double sine = other.normal.cross(n).norm();
-    if (other.normal.dot(n) > 0 && sine < least) least = sine, facet = &other;
+    if (sine < least) least = sine, facet = &other;
   }
   if (facet) {
     const Vec3 rises = n - n.dot(facet->normal) * facet->normal;

@@ -183,27 +183,39 @@ template <class Body>
 
 /// Are all points on the hull and on A, but for what those of round bodies that lean are off? Of
 /// faces that are nearly in one plane the one that leans least need not be the one that A meets.
+/// What is near a vertex or edge of the hull is on it, without a look at all faces.
 bool are_on_both(const Contact& contact, const PosedCylinder& a, const PosedConvex& b,
-                 const Vec3& origin, const Margins& margins) {
+                 const FacingFeature& on_b, const Vec3& origin, const Margins& margins) {
   const double largest = std::max(extents(a).largest, extents(b).largest);
   constexpr double slant = 50;    // slack over size, half squared: 1e-3 is a slant of 1e-2
   constexpr double most = 0.005;  // half of a tenth squared, by which features lean at most
   const double tolerance =
       margins.unseen_depth() +
       std::min(slant * margins.slack * margins.slack / largest, most * largest);
+  const auto is_near_feature = [&](const Vec3& x) {
+    if (on_b.kind == Kind::polygon) return false;
+    Vec3 arm = x - on_b.middle;
+    if (on_b.kind == Kind::segment) {
+      arm -= std::clamp(arm.dot(on_b.axis), -on_b.half_length, on_b.half_length) * on_b.axis;
+    }
+    return arm.squaredNorm() <= tolerance * tolerance;
+  };
   return std::all_of(contact.points().begin(), contact.points().end(), [&](const ContactPoint& p) {
+    const Vec3 x = p.position - origin, half = p.depth / 2 * contact.normal;
+    if (is_near_feature(x + half) && outside(a, x - half) <= tolerance) return true;
     return off_bodies(p, contact.normal, a, b, origin) <= tolerance;
   });
 }
 template <class Body>
-bool are_on_both(const Contact&, const PosedCylinder&, const Body&, const Vec3&, const Margins&) {
+bool are_on_both(const Contact&, const PosedCylinder&, const Body&, const FacingFeature&,
+                 const Vec3&, const Margins&) {
   return true;
 }
 
 /// Sees to a point of the whole depth, and to none that is deeper.
 template <class Body>
-void hold_depth(Contact& contact, const PosedCylinder& a, const Body& b, const Vec3& origin,
-                const Margins& margins) {
+void hold_depth(Contact& contact, const PosedCylinder& a, const Body& b, const FacingFeature& on_b,
+                const Vec3& origin, const Margins& margins) {
   const double depth = -contact.signed_distance;
   double deepest = max_depth(contact);
   if (deepest > depth + margins.rounding) {
@@ -211,7 +223,7 @@ void hold_depth(Contact& contact, const PosedCylinder& a, const Body& b, const V
     deepest = max_depth(contact);
   }
   if (!(depth - deepest <= margins.unseen_depth()) ||
-      !are_on_both(contact, a, b, origin, margins)) {
+      !are_on_both(contact, a, b, on_b, origin, margins)) {
     add_deepest(contact, a, b, origin, margins);
   }
 }
@@ -238,14 +250,16 @@ void add_facing_points(Contact& contact, const PosedCylinder& a, const Body& b, 
       return contact.add_point(origin + (on_b.middle + half), -contact.signed_distance);
     }
     add_points_of_features(contact, facing(a, -n, margins.flat), on_b, origin, margins);
+    hold_depth(contact, a, b, on_b, origin, margins);
   } else {
     const FacingFeature on_a = facing(a, -n, margins.flat);
     if (is_known(on_a)) {
       return contact.add_point(origin + (on_a.middle - half), -contact.signed_distance);
     }
-    add_points_of_features(contact, on_a, facing(b, n, margins.flat), origin, margins);
+    const FacingFeature on_b = facing(b, n, margins.flat);
+    add_points_of_features(contact, on_a, on_b, origin, margins);
+    hold_depth(contact, a, b, on_b, origin, margins);
   }
-  hold_depth(contact, a, b, origin, margins);
 }
 
 template void add_facing_points(Contact&, const PosedCylinder&, const PosedCapsule&, const Vec3&,
