@@ -7,8 +7,8 @@
 
 #include "batch.hpp"
 #include "contact.hpp"
+#include "first_zero.hpp"
 #include "invalid_input.hpp"
-#include "largest_gap.hpp"
 
 namespace touchstone {
 namespace {
@@ -51,9 +51,6 @@ void check_sweep(const Vec3& sweep) {
   if (!sweep.allFinite()) throw InvalidInput("sweep", "not finite", "must be finite");
 }
 
-/// Halves the distance with each step at least, where bodies graze as spheres do.
-constexpr int max_steps = 200;
-
 }  // namespace
 
 template <class Other>
@@ -64,29 +61,16 @@ Cast cast(const Cylinder& a, const Pose& pose_a, const Vec3& sweep, const Other&
   const Pose still(Vec3::Zero(), pose_b.orientation());
   const double sizes = largest_half_extent(a) + size_for_rounding(b);
   const Vec3 quarter = sweep / 4;  // whose components' sum is finite
-  double t = 0;
-  Vec3 at = offset.at(0);
-  SignedDistance found = signed_distance(a, Pose(at, pose_a.orientation()), b, still);
-  if (found.value <= 0) return {CastStatus::from_start, 0, found.normal};
-  for (int step = 0; step < max_steps; ++step) {
-    const double lengths = sizes + at.cwiseAbs().sum();
-    if (t > 0 && found.value <= tie_part * lengths) break;
-    const double approach = -found.normal.dot(quarter);
-    // Along this normal they are as far apart at the end as the tangent is there.
-    const bool stay_apart = found.value / 4 - approach * (1 - t) > rounding_part * lengths;
-    if (!(approach > 0) || stay_apart) return {CastStatus::never, 1, found.normal};
-    const double next = std::min(1.0, t + found.value / 4 / approach);
-    if (!(next > t)) break;
-    at = offset.at(next);
-    const SignedDistance there = signed_distance(a, Pose(at, pose_a.orientation()), b, still);
-    // Within rounding a tangent may go too far where bodies graze.
-    const bool is_no_nearer = std::abs(there.value) >= found.value;
-    if (is_no_nearer && found.value <= rounding_part * lengths) break;
-    t = next;
-    found = there;
-    if (found.value <= 0) break;
-  }
-  return {CastStatus::touch, t, found.normal};
+  const auto moment = [&](double t) -> Moment {
+    const Vec3 at = offset.at(t);
+    const SignedDistance found = signed_distance(a, Pose(at, pose_a.orientation()), b, still);
+    return {t, found, found.value / 4, found.normal.dot(quarter), sizes + at.cwiseAbs().sum()};
+  };
+  const Moment start = moment(0);
+  if (start.found.value <= 0) return {CastStatus::from_start, 0, start.found.normal};
+  const FirstZero end = FirstZeroSearch(start).find(moment);
+  if (!end.is_reached) return {CastStatus::never, 1, end.at.found.normal};
+  return {CastStatus::touch, end.at.t, end.at.found.normal};
 }
 
 template Cast cast(const Cylinder&, const Pose&, const Vec3&, const Plane&, const Pose&);

@@ -19,7 +19,7 @@ struct Cast {
   CastStatus status;
   double fraction;  ///< of the sweep, up to which A moves freely: 0 from the start, 1 for never
   /// Unit, from B to A, world frame: of a touch, there; from the start, that of the overlap; of
-  /// never, one along which the bodies stay apart for the rest of the sweep.
+  /// never, where A was last known to come nearer, or of the start.
   Vec3 normal;
 };
 
@@ -28,13 +28,13 @@ struct Cast {
 ///
 /// The signed distance at the fraction is zero within 1e-13 of the larger size, and within what a
 /// fraction in double moves A; nothing is passed through, however thin it is and however far the
-/// sweep goes (cast_test.cpp). No tolerance is to be set. As the mean of random sweeps,
-/// one in four grazing, it costs two to six times signed_distance; one that grazes up to fifty,
-/// seldom more.
+/// sweep goes (cast_test.cpp). No tolerance is to be set. It asks for 2.1 signed distances as the
+/// mean of random sweeps, one in four grazing, for nine at most in 99 of 100, and for 19 at most in
+/// 300,000. (Near a touch one may cost much more than from afar.)
 ///
-/// The signed distance is the largest of functions that are linear in t, so it is convex, and each
-/// tangent lies below it: where the tangent at t reaches zero, A has not touched B yet (Newton's
-/// method from the left). Throws InvalidInput unless the sweep is finite.
+/// The signed distance is the largest of functions that are linear in t, so it is convex, and its
+/// tangents lie below it: they never lead past the touch, and prove that there is none
+/// (first_zero.hpp). Throws InvalidInput unless the sweep is finite.
 template <class Other>
 Cast cast(const Cylinder& a, const Pose& pose_a, const Vec3& sweep, const Other& b,
           const Pose& pose_b);

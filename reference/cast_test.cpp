@@ -13,6 +13,7 @@
 #include "oracle/first_touch.hpp"
 #include "oracle/hull.hpp"
 #include "oracle/judge/cast_score.hpp"
+#include "reference/first_zero.hpp"
 #include "reference/invalid_input.hpp"
 #include "reference/random_bodies_test.hpp"
 #include "reference/random_casts_test.hpp"
@@ -142,6 +143,54 @@ TEST(Cast, GrazesWithinRounding) {
   }
 }
 
+/// What a search finds, and how many moments it asks about.
+struct CountedSearch {
+  FirstZero end;
+  int moments;
+};
+template <class At>
+CountedSearch count_moments(At at) {
+  int moments = 1;
+  const auto counted = [&](double t) { return ++moments, at(t); };
+  const FirstZero end = FirstZeroSearch(at(0)).find(counted);
+  return {end, moments};
+}
+
+TEST(Cast, AGrazeTakesFewMoments) {
+  // Distances that are lowest at t = 0.7: as a ball passes, a ball that then slides along a face, a
+  // flatter body, and an edge. Tangents alone halve the way to the first, and take 26 moments.
+  struct Graze {
+    const char* name;
+    double (*height)(double x);
+    double (*slope)(double x);
+  };
+  const Graze grazes[] = {
+      {"square", [](double x) { return x * x; }, [](double x) { return 2 * x; }},
+      {"flat", [](double x) { return x < 0 ? x * x : 0; },
+       [](double x) { return x < 0 ? 2 * x : 0; }},
+      {"fourth power", [](double x) { return x * x * x * x; },
+       [](double x) { return 4 * x * x * x; }},
+      {"edge", [](double x) { return std::abs(x); }, [](double x) { return x < 0 ? -1.0 : 1.0; }}};
+  for (const Graze& graze : grazes) {
+    for (const double lower : {0.0, 1e-15, -1e-15, 1e-12, -1e-12, 1e-6, -1e-6, 0.1, -0.1}) {
+      SCOPED_TRACE(testing::Message() << graze.name << ", lowest at " << lower);
+      const auto [end, moments] = count_moments([&](double t) -> Moment {
+        const double height = graze.height(t - 0.7) + lower;
+        return {t, {4 * height, Vec3::UnitX()}, height, graze.slope(t - 0.7), 1};
+      });
+      constexpr double rounding = 1e-14;
+      if (std::abs(lower) > rounding) {
+        EXPECT_EQ(end.is_reached, lower < 0);
+      }
+      if (end.is_reached) {
+        EXPECT_LE(std::abs(end.at.height), rounding);
+        EXPECT_LE(end.at.t, 0.7 + 1e-3);  // where the fourth power is rounding
+      }
+      EXPECT_LE(moments, 18);
+    }
+  }
+}
+
 TEST(Cast, RefusesASweepThatIsNotFinite) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
   EXPECT_THROW(cast(Cylinder(1, 1), Pose(), {0, infinite, 0}, Sphere(1), Pose()), InvalidInput);
@@ -199,7 +248,7 @@ class CastOf : public testing::TestWithParam<Pair> {};
 TEST_P(CastOf, RandomSweepsIsWithinRoundingOfTheTruth) {
   Random random(static_cast<std::uint64_t>(GetParam()) + 3);
   const std::uint64_t count = tried_of_each(200);
-  int touches = 0, nevers = 0;
+  int touches = 0, nevers = 0, all_moments = 0;
   for (std::uint64_t i = 0; i < count; ++i) {
     const CastIdentity identity = any_cast(GetParam(), random);
     const auto [c, sweep] = make_cast(identity);
@@ -213,9 +262,24 @@ TEST_P(CastOf, RandomSweepsIsWithinRoundingOfTheTruth) {
     EXPECT_EQ(score.outcome, CastOutcome::agree)
         << outcome_name(score.outcome) << ' ' << score.distance.value_or(NAN) * error_size(c, bar)
         << ' ' << score.normal_regret.value_or(NAN);
+    const Vec3 offset = c.pose_a.position() - c.pose_b.position();
+    const int moments = count_moments([&](double t) -> Moment {
+                          Configuration at = c;
+                          at.pose_a = Pose(offset + t * sweep, c.pose_a.orientation());
+                          at.pose_b = Pose(Vec3::Zero(), c.pose_b.orientation());
+                          const SignedDistance d = signed_distance(at);
+                          return {t, d, d.value / 4, d.normal.dot(sweep) / 4,
+                                  size_of(c) + at.pose_a.position().norm()};
+                        }).moments;
+    constexpr int max_moments = 24;
+    if (found.status != CastStatus::from_start) {
+      EXPECT_LE(moments, max_moments);
+      all_moments += moments;
+    }
     touches += truth.status == oracle::FirstTouch::Status::touch;
     nevers += truth.status == oracle::FirstTouch::Status::never;
   }
+  EXPECT_LT(all_moments, static_cast<int>(3 * count));
   EXPECT_GT(touches, static_cast<int>(count / 10)) << "too few of the sweeps touch";
   EXPECT_GT(nevers, static_cast<int>(count / 20)) << "too few of the sweeps miss";
 }
