@@ -591,7 +591,8 @@ class Stubs(unittest.TestCase):
         functions = {n.name for n in STUB.body if isinstance(n, ast.FunctionDef)}
         self.assertEqual(functions | classes.keys() | {"PAIRS"}, set(touchstone.__all__))
         for name, node in classes.items():
-            members = {member.name for member in node.body if not member.name.startswith("_")}
+            names = [m.target.id if isinstance(m, ast.AnnAssign) else m.name for m in node.body]
+            members = {name for name in names if not name.startswith("_")}
             actual = {m for m in vars(getattr(touchstone, name)) if not m.startswith("_")}
             self.assertEqual(members, actual, name)
 
