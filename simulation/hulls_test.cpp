@@ -6,7 +6,6 @@
 #include "simulation/assembly.hpp"
 #include "simulation/each_world.hpp"
 #include "simulation/mechanism_scenes.hpp"
-#include "simulation/world_fixture.hpp"
 
 namespace touchstone {
 namespace {

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "reference/error_of_test.hpp"
-#include "simulation/world_fixture.hpp"
+#include "simulation/each_world.hpp"
 
 namespace touchstone {
 namespace {
