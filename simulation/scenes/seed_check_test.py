@@ -78,19 +78,17 @@ class SeedCheck(unittest.TestCase):
     def asked(self):
         return [json.loads(line) for line in (self.folder / "asked").read_text().splitlines()]
 
-    def test_the_same_answer_for_all_seeds(self):
-        done = self.check([1, 1, 1])
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertRegex(done.stdout,
-                         r"made-up, seed 3: can on table: capsule \(10.0% of a step; tried in \d+ s\)")
-
-    def test_another_answer_for_one_seed(self):
-        self.assertEqual(self.check([1, 1, 0]).returncode, 1)
-
-    def test_what_choose_refuses(self):
-        done = self.check([1, "refused"])
-        self.assertEqual(done.returncode, 2)
-        self.assertIn("error: refused", done.stderr)
+    def test_the_exit_code_is_0_for_the_same_answer_of_all_seeds(self):
+        for check, answers, code, told in (
+                (self.check, [1, 1, 1], 0, r"seed 3: can on table: capsule \(10.0% of a step; tried in \d+ s\)"),
+                (self.check, [1, 1, 0], 1, "seed 2: "), (self.check, [1, "refused"], 2, "error: refused"),
+                (self.check_in_engine, [2, 2, 2], 0, r"seed 3: capsule; box \(in ode, 8.2 µs a step; "),
+                (self.check_in_engine, [2, 0], 1, "seed 2: "), (self.check_in_engine, [0, None], 1, "seed 2: "),
+                (self.check_in_engine, [None, None], 0, r"seed 1: none \(in ode; ")):
+            with self.subTest(answers=answers):
+                done = check(answers)
+                self.assertEqual(done.returncode, code, done.stderr)
+                self.assertRegex(done.stdout + done.stderr, told)
 
     def test_a_program_that_is_not_there(self):
         done = self.run_check(self.folder / "none", "made-up.json")
@@ -105,23 +103,11 @@ class SeedCheck(unittest.TestCase):
                          "box-capsules:1,capsule,prism:8,reference,spheres:1")
         self.assertEqual(third["--candidates"], second["--candidates"])
         self.assertEqual({asked["--drive"] for asked in (first, second, third)}, {"wheel=1"})
-
-    def test_the_same_setting_of_an_engine_for_all_seeds(self):
-        done = self.check_in_engine([2, 2, 2])
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn("made-up, seed 3: capsule; box (in ode, 8.2 µs a step; ", done.stdout)
+        (self.folder / "asked").unlink()
+        self.check_in_engine([2, 2])
         for asked in self.asked():
             self.assertEqual(asked["--engine"], "ode")
             self.assertNotIn("--candidates", asked)
-
-    def test_another_setting_of_an_engine_for_one_seed(self):
-        self.assertEqual(self.check_in_engine([2, 0]).returncode, 1)
-
-    def test_no_setting_of_an_engine(self):
-        done = self.check_in_engine([None, None])
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn("made-up, seed 1: none (in ode; ", done.stdout)
-        self.assertEqual(self.check_in_engine([0, None]).returncode, 1)
 
     def test_a_scene_of_ours_in_an_engine(self):
         done = self.run_check(PROGRAM, HERE / "rod-on-table.json", "--seeds", "2", "--engine",
