@@ -6,8 +6,7 @@
 #include <iostream>
 
 #include "properties/arbitrary.hpp"
-#include "verification/fuzz/disagreement.hpp"
-#include "verification/fuzz/from_bytes.hpp"
+#include "verification/fuzz/fuzz.hpp"
 
 namespace {
 

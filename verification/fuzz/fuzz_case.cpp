@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "properties/files/configuration_json.hpp"
-#include "verification/fuzz/from_bytes.hpp"
+#include "verification/fuzz/fuzz.hpp"
 
 int main(int count, char** arguments) {
   std::ifstream file(count == 2 ? arguments[1] : "", std::ios::binary);

@@ -2,6 +2,8 @@
 // wrong are seen, and the corpus holds; and so does the hostile class.
 //
 // TOUCHSTONE_COUNT sets how many hostile configurations of each pair are tried; by default 2000.
+#include "verification/fuzz/fuzz.hpp"
+
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -16,8 +18,6 @@
 
 #include "properties/identity.hpp"
 #include "reference/random_bodies_test.hpp"
-#include "verification/fuzz/disagreement.hpp"
-#include "verification/fuzz/from_bytes.hpp"
 
 namespace touchstone {
 namespace {
