@@ -96,39 +96,6 @@ TEST(Agreement, SolveAddsTheSecondOraclesEnclosure) {
 constexpr double width = 1e-30;
 constexpr audit::Budget budget{width, 4000};
 
-class Folder {
- public:
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "certificates-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-    path_ = name;
-  }
-  ~Folder() { fs::remove_all(path_); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-
-  void write(const std::string& name, const std::string& certificate) const {
-    std::ofstream(path_ / (name + ".json")) << certificate;
-  }
-
-  /// The checker accepts so many files, all that there are.
-  void expect_accepted(std::size_t count) const {
-    const std::string command =
-        std::string(TOUCHSTONE_PYTHON " " TOUCHSTONE_CHECKER " ") + path_.string() + "/*.json 2>&1";
-    FILE* pipe = popen(command.c_str(), "r");
-    std::size_t lines = 0;
-    char buffer[1024];
-    for (; fgets(buffer, sizeof buffer, pipe) != nullptr; ++lines) {
-      EXPECT_THAT(buffer, HasSubstr(".json: accepted: "));
-    }
-    EXPECT_EQ(lines, count);
-    EXPECT_EQ(WEXITSTATUS(pclose(pipe)), 0);
-  }
-
- private:
-  fs::path path_;
-};
-
 std::vector<Identity> identities(Pair pair) {
   const char* text = std::getenv("TOUCHSTONE_COUNT");
   const std::uint64_t count = text ? std::strtoull(text, nullptr, 10) : 1;
@@ -142,72 +109,86 @@ std::vector<Identity> identities(Pair pair) {
   return result;
 }
 
-class Certificates : public testing::TestWithParam<Pair> {};
+/// Writes certificates of a pair into a folder, all of which the checker accepts in the end.
+class Certificates : public testing::TestWithParam<Pair> {
+ protected:
+  void SetUp() override {
+    folder_ = (fs::temp_directory_path() / "certificates-XXXXXX").string();
+    ASSERT_NE(mkdtemp(folder_.data()), nullptr);
+  }
+  void TearDown() override {
+    const std::string command =
+        TOUCHSTONE_PYTHON " " TOUCHSTONE_CHECKER " " + folder_ + "/*.json 2>&1";
+    FILE* pipe = popen(command.c_str(), "r");
+    std::size_t lines = 0;
+    char buffer[1024];
+    for (; fgets(buffer, sizeof buffer, pipe) != nullptr; ++lines) {
+      EXPECT_THAT(buffer, HasSubstr(".json: accepted: "));
+    }
+    EXPECT_EQ(lines, count_);
+    EXPECT_EQ(WEXITSTATUS(pclose(pipe)), 0);
+    fs::remove_all(folder_);
+  }
+
+  audit::Certificate certify(const Configuration& c, const audit::Budget& spent = budget) {
+    audit::Certificate proof = audit::certify(c, spent);
+    std::ofstream(folder_ + '/' + std::to_string(count_++) + ".json") << certificate_json(proof, c);
+    return proof;
+  }
+  /// The certificate encloses the truth; returns how widely.
+  mpq_class certify_truth(const Configuration& c) {
+    const audit::Certificate proof = certify(c);
+    const oracle::Enclosure truth = oracle::truth(c).signed_distance;
+    EXPECT_LE(proof.lo, truth.hi);
+    EXPECT_GE(proof.hi, truth.lo);
+    return proof.hi - proof.lo;
+  }
+  std::size_t count() const { return count_; }
+
+ private:
+  std::string folder_;
+  std::size_t count_ = 0;
+};
 /// Of bodies whose sizes are set to such lengths.
 class CertificatesOfExtremes : public Certificates {};
 
 // oracle/check_certificate_test.py and oracle/forge_certificates.py hold what must be rejected.
 TEST_P(Certificates, AreAcceptedAndEncloseTheTruth) {
-  const Folder folder;
-  std::size_t count = 0;
   for (const Identity& id : identities(GetParam())) {
     SCOPED_TRACE(to_string(id));
     const Configuration c = make_configuration(id);
-    const audit::Certificate proof = audit::certify(c, budget);
-    const oracle::Enclosure truth = oracle::truth(c).signed_distance;
-    EXPECT_LE(proof.lo, truth.hi);
-    EXPECT_GE(proof.hi, truth.lo);
+    const mpq_class found = certify_truth(c);
     const std::string pose_class = id.pose_class.name();
     if (pose_class == "general+shallow" || pose_class == "general+apart" ||
         pose_class == "general+deep") {
-      EXPECT_LE(proof.hi - proof.lo, mpq_class(width) * mpq_class(larger_size(c)));
+      EXPECT_LE(found, mpq_class(width) * mpq_class(larger_size(c)));
     }
-    folder.write(pose_class + "-" + std::to_string(id.index), certificate_json(proof, c));
-    ++count;
   }
-  folder.expect_accepted(count);
 }
 
 TEST_P(Certificates, OfRoundedBodiesAreAcceptedAndEncloseTheTruth) {
-  const Folder folder;
-  std::size_t count = 0;
   constexpr double parts[] = {0.25, 1};
   for (const Identity& id : identities(GetParam())) {
     SCOPED_TRACE(to_string(id));
-    const Configuration c =
-        rounded_by(make_configuration(id), parts[count % 2], parts[count / 2 % 2]);
-    const audit::Certificate proof = audit::certify(c, budget);
-    const oracle::Enclosure truth = oracle::truth(c).signed_distance;
-    EXPECT_LE(proof.lo, truth.hi);
-    EXPECT_GE(proof.hi, truth.lo);
-    folder.write(std::to_string(count++), certificate_json(proof, c));
+    certify_truth(rounded_by(make_configuration(id), parts[count() % 2], parts[count() / 2 % 2]));
   }
-  folder.expect_accepted(count);
 }
 
 TEST_P(CertificatesOfExtremes, OfTheSmallestAndLargestLengthsAreAccepted) {
-  const Folder folder;
-  std::size_t count = 0;
   for (const char* pose_class : {"general-deep", "general-shallow", "general-separated"}) {
     // Lengths between 2^-8 and 2^4 become denormal, or reach the largest doubles.
     for (const int exponent : {-1066, -1020, 1000, 1019}) {
       Numbers numbers = numbers_of(make_configuration({GetParam(), pose_class, 20261122, 0}));
       scale_both(numbers, exponent);
-      const Configuration c = configuration_of(numbers);
-      folder.write(pose_class + std::to_string(exponent),
-                   certificate_json(audit::certify(c, budget), c));
-      ++count;
+      certify(configuration_of(numbers));
     }
   }
-  folder.expect_accepted(count);
 }
 
 TEST_P(CertificatesOfExtremes, OfMixedExtremesAreAccepted) {
   // 1e308 beside 5e-324 in every place, one after the other, and apart by more than all doubles.
-  const Folder folder;
-  std::size_t count = 0;
-  const json base = to_json(make_configuration({GetParam(), "general-deep", 20261122, 0}));
-  const json flat = base.flatten();
+  const json flat =
+      to_json(make_configuration({GetParam(), "general-deep", 20261122, 0})).flatten();
   for (const auto& [pointer, value] : flat.items()) {
     if (!value.is_number()) continue;
     for (const double extreme : {5e-324, 1e308, 1.7e308}) {
@@ -217,11 +198,9 @@ TEST_P(CertificatesOfExtremes, OfMixedExtremesAreAccepted) {
       if (pointer == "/b/radius" && changed.contains("/b/half_length")) {
         changed["/b/half_length"] = extreme;
       }
-      const Configuration c = configuration_from_json(changed.unflatten()).configuration;
-      folder.write(std::to_string(count++), certificate_json(audit::certify(c, {1e-6, 400}), c));
+      certify(configuration_from_json(changed.unflatten()).configuration, {1e-6, 400});
     }
   }
-  folder.expect_accepted(count);
 }
 
 INSTANTIATE_TEST_SUITE_P(, Certificates, testing::ValuesIn(all_pairs), name_of_other);
