@@ -41,8 +41,9 @@ bool is_within(double x, double lo, double hi) { return std::abs(x) > lo && std:
 // Shapes and poses reject numbers that are not finite, so that constructing them is the test.
 TEST(HostileClass, MakesValidConfigurationsOfItsPair) {
   for (const Pair pair : all_pairs) {
-    EXPECT_EQ(count(pair, [&](const Configuration& c) { return pair_of(c) == pair; }),
-              hostile_samples);
+    // A hull is made of its points, which takes as long as a hundred others.
+    const std::uint64_t samples = pair == Pair::convex ? hostile_samples / 5 : hostile_samples;
+    for (std::uint64_t i = 0; i < samples; ++i) EXPECT_EQ(pair_of(hostile(pair, i)), pair) << i;
   }
 }
 

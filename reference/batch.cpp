@@ -28,7 +28,9 @@
 // points.
 
 #if defined(__x86_64__) && defined(__GLIBC__) && defined(__has_attribute)
-#if __has_attribute(target_clones)
+// Not under ThreadSanitizer: it instruments what chooses the copy, which may run before the
+// sanitizer does.
+#if __has_attribute(target_clones) && !defined(__SANITIZE_THREAD__)
 #define TOUCHSTONE_CLONES [[gnu::target_clones("avx2", "default")]]
 #endif
 #endif
