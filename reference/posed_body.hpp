@@ -53,14 +53,9 @@ struct PosedConvex {
   const Convex& body;
 };
 
-// A rounded body is posed as its core (pair.hpp adds the rounding to the answers). Lengths of zero,
-// of a core that is a disc, a segment or a point, are made 1e-15 of the body's: the routines divide
-// by them, and so little moves no distance by more than rounding does.
+// A rounded body is posed as its core (pair.hpp adds the rounding to the answers), without a
+// branch: it would keep the cheapest pairs' numbers out of registers.
 
-inline double core_length(double length, double rounding, double lengths) {
-  constexpr double vanishing = 1e-15;
-  return std::max(length - rounding, vanishing * lengths);
-}
 /// Of any shape.
 inline double rounding_in(const auto& s) {
   if constexpr (requires { s.rounding(); }) return s.rounding();
@@ -68,11 +63,7 @@ inline double rounding_in(const auto& s) {
 }
 
 inline PosedCylinder posed(const Cylinder& s, const Pose& pose, const auto& centre) {
-  const double r = s.radius(), h = s.half_length(), rounding = s.rounding();
-  if (rounding == 0) [[likely]]
-    return {centre, r, h, pose.rotation()};
-  return {centre, core_length(r, rounding, r + h), core_length(h, rounding, r + h),
-          pose.rotation()};
+  return {centre, s.positive_core_radius(), s.positive_core_half_length(), pose.rotation()};
 }
 inline PosedPlane posed(const Plane& s, const Pose& pose, const auto& centre) {
   return {centre, pose.rotation() * s.unit_normal(), s.unit_displacement()};
@@ -84,11 +75,7 @@ inline PosedCapsule posed(const Capsule& s, const Pose& pose, const auto& centre
   return {centre, s.radius(), s.half_length(), pose.rotation()};
 }
 inline PosedBox posed(const Box& s, const Pose& pose, const auto& centre) {
-  const Vec3& e = s.half_extents();
-  if (s.rounding() == 0) [[likely]]
-    return {centre, pose.rotation(), e};
-  const auto of_core = [&](double x) { return core_length(x, s.rounding(), e.sum()); };
-  return {centre, pose.rotation(), {of_core(e.x()), of_core(e.y()), of_core(e.z())}};
+  return {centre, pose.rotation(), s.positive_core_half_extents()};
 }
 inline PosedConvex posed(const Convex& s, const Pose& pose, const auto& centre) {
   return {centre, pose.rotation(), s};

@@ -78,16 +78,32 @@ Capsule::Capsule(double radius, double half_length)
     : radius_(checked_size("radius", radius)),
       half_length_(checked_size("half_length", half_length)) {}
 
+namespace {
+
+double positive_core_length(double length, double rounding, double lengths) {
+  constexpr double vanishing = 1e-15;
+  return rounding == 0 ? length : std::max(length - rounding, vanishing * lengths);
+}
+
+}  // namespace
+
 Cylinder::Cylinder(double radius, double half_length, double rounding)
     : radius_(checked_size("radius", radius)),
       half_length_(checked_size("half_length", half_length)),
-      rounding_(checked_rounding(rounding, std::min(radius, half_length))) {}
+      rounding_(checked_rounding(rounding, std::min(radius, half_length))),
+      positive_core_radius_(positive_core_length(radius, rounding, radius + half_length)),
+      positive_core_half_length_(
+          positive_core_length(half_length, rounding, radius + half_length)) {}
 
 Box::Box(const Vec3& half_extents, double rounding)
     : half_extents_(half_extents), rounding_(rounding) {
   constexpr const char* fields[] = {"half_extents[0]", "half_extents[1]", "half_extents[2]"};
   for (int i = 0; i < 3; ++i) checked_size(fields[i], half_extents[i]);
   rounding_ = checked_rounding(rounding, half_extents.minCoeff());
+  for (int i = 0; i < 3; ++i) {
+    positive_core_half_extents_[i] =
+        positive_core_length(half_extents[i], rounding, half_extents.sum());
+  }
 }
 
 namespace {

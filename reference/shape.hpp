@@ -75,11 +75,17 @@ class Cylinder {
   /// Those of the core, rounded to doubles.
   double core_radius() const { return radius_ - rounding_; }
   double core_half_length() const { return half_length_ - rounding_; }
+  /// The same made positive, as routines divide by them: zero is 1e-15 of the body's lengths, which
+  /// moves no distance by more than rounding does.
+  double positive_core_radius() const { return positive_core_radius_; }
+  double positive_core_half_length() const { return positive_core_half_length_; }
 
  private:
   double radius_;
   double half_length_;
   double rounding_;
+  double positive_core_radius_;
+  double positive_core_half_length_;
 };
 
 class Box {
@@ -89,10 +95,13 @@ class Box {
   double rounding() const { return rounding_; }
   /// Those of the core, rounded to doubles.
   Vec3 core_half_extents() const { return half_extents_.array() - rounding_; }
+  /// The same made positive, as a cylinder's.
+  const Vec3& positive_core_half_extents() const { return positive_core_half_extents_; }
 
  private:
   Vec3 half_extents_;
   double rounding_;
+  Vec3 positive_core_half_extents_;
 };
 
 /// A convex polyhedron with its vertices in the body frame, which need not be about the origin; or
