@@ -44,6 +44,7 @@ class FirstZeroSearch {
     constexpr int max_moments = 200;
     for (int i = 0; i < max_moments; ++i) {
       if (is_proven_positive()) return {false, left_};
+      if (right_ && is_left_lowest(*right_)) return {true, left_};
       const double t = next();
       if (!(t > left_.t)) return {true, left_};
       if (right_ && !(t < right_->t)) return {true, *right_};
