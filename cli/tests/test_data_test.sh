@@ -14,7 +14,7 @@ expect 2 '--suite' export --suite --count 3
 expect 0 '^TEST_F(CylinderPlane, Lying)' export --as gtest --engine bullet --pair cylinder-plane
 expect 0 'TEST_CASE("TestCollideCylinderVsSphereRim" \* doctest::should_fail())' export --as doctest --engine jolt --pair cylinder-sphere
 also '^		CHECK(collector.HadHit());'  # Jolt's doctest has no REQUIRE: its exceptions are off
-expect 2 '--as is "rust": must be one of gtest, boost, unittest, doctest, js, mjcf' export --as rust --engine ode
+expect 2 '--as is "xml": must be one of gtest, boost, unittest, doctest, js, rust, mjcf' export --as xml --engine ode
 expect 2 '--engine is "ode": must be one of mujoco, mujoco3, mujoco3-single for --as mjcf' export --as mjcf --engine ode
 expect 2 '--engine is "ode": must be one of jolt, .* for --as js' export --as js --engine ode
 expect 2 '--engine is missing: must name the engine' export --as gtest

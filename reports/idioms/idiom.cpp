@@ -26,7 +26,7 @@ namespace touchstone {
 
 // Made by the build from the files tests.*.in of candidates/reproducers.
 extern const std::string_view tests_cpp_template, tests_mjs_template, tests_py_template,
-    tests_mjcf_template, callable_py_template, mjcf_template;
+    tests_mjcf_template, tests_rs_template, callable_py_template, mjcf_template;
 
 namespace {
 
@@ -39,9 +39,15 @@ struct Idiom {
   Texts texts;              ///< of every file
 };
 
-/// A model of MuJoCo has no program: its file is what stands before the first case, and the cases.
+// Of these no program is taken: a model of MuJoCo asks nothing, and parry's crate is not npm's
+// package.
 const Language model_language = {"mjcf", "", tests_mjcf_template, NumberStyle::decimal};
-constexpr std::string_view model_source = "@head@\n@question@@judgement@";
+const Language rust = {"rust", "//", tests_rs_template, NumberStyle::decimal};
+constexpr std::string_view no_program = "@head@\n@question@@judgement@";
+
+bool has_program(const Language& language) {
+  return &language != &model_language && &language != &rust;
+}
 
 const std::vector<Idiom>& all_idioms() {
   static const std::vector<Idiom> all = {
@@ -64,6 +70,7 @@ const std::vector<Idiom>& all_idioms() {
       {"unittest", python, tests_py_template, "", {{"program", "cylinder_contacts_test"}}},
       {"doctest", cpp, tests_cpp_template, "@case@", {}},
       {"js", javascript, tests_mjs_template, "@question@", {{"program", "cylinder_contacts.test"}}},
+      {"rust", rust, tests_rs_template, "", {}},
       {"mjcf", model_language, tests_mjcf_template, "", {}}};
   return all;
 }
@@ -72,6 +79,7 @@ const std::vector<Idiom>& all_idioms() {
 /// keeps the bodies of earlier cases, and its margins are of no usual world.
 bool fits(const Program& program, const Idiom& idiom) {
   if (&idiom.language == &model_language) return program.title == "MuJoCo";
+  if (&idiom.language == &rust) return program.engine == "rapier";
   return &program.language == &idiom.language && program.engine != "jolt-margin" &&
          program.engine != "jolt-world" && !has_floor(program) &&
          program.source.find(idiom.marker) != program.source.npos;
@@ -84,8 +92,8 @@ Program program_of(const Idiom& idiom, const std::string& engine) {
   for (const Program& p : programs()) {
     if (!fits(p, idiom)) continue;
     if (p.engine == engine) {
-      if (&idiom.language != &model_language) return p;
-      return {p.engine, p.candidate, p.title, model_language, model_source, p.tags};
+      if (has_program(idiom.language)) return p;
+      return {p.engine, p.candidate, p.title, idiom.language, no_program, p.tags};
     }
     if (names.empty() || names.back() != p.engine) names.push_back(p.engine);
   }
@@ -174,6 +182,18 @@ Habit habit_of(const Program& program, const Tags& tags) {
   return {has("x") ? 'x' : has("y") ? 'y' : 'z', program.title == "MuJoCo"};
 }
 
+/// Numbers as Rust wants them: 1.0 for 1.
+std::string with_points(std::string_view numbers) {
+  std::string result;
+  for (const std::string_view number : split(numbers, ' ')) {
+    const std::string_view digits = number.substr(0, number.find(','));
+    const bool is_whole = digits.find_first_not_of("-0123456789") == digits.npos && !digits.empty();
+    result += (result.empty() ? "" : " ") + std::string(digits) + (is_whole ? ".0" : "") +
+              std::string(number.substr(digits.size()));
+  }
+  return result;
+}
+
 std::string xml_escaped(std::string_view text) {
   std::string result;
   for (const char c : text) {
@@ -240,6 +260,9 @@ Texts names_in_javascript() {
 Texts case_texts(const IdiomCase& c, const std::string& engine, const Idiom& idiom, Habit habit) {
   const PoseClass& of = c.identity.pose_class;
   Texts texts = question_texts(renamed(c.configuration, habit.axis), NumberStyle::decimal);
+  if (&idiom.language == &rust) {
+    for (auto& [name, text] : texts) text = with_points(text);
+  }
   std::string sentences = of.arrangement->description;
   if (c.verdict != "right") sentences += fmt::format(" {} {}.", engine, deed(c.verdict));
   sentences += fmt::format(" (Rounded from {}.)", to_string(c.identity));
@@ -259,6 +282,7 @@ Texts case_texts(const IdiomCase& c, const std::string& engine, const Idiom& idi
     texts["turn_" + body] = texts[(habit.real_part_first ? "orientation_" : "xyzw_") + body];
   }
   texts["true_distance"] = fmt::format("{}", nearest_to_middle(c.truth.signed_distance));
+  if (&idiom.language == &rust) texts["true_distance"] = with_points(texts["true_distance"]);
   texts["tolerance"] = fmt::format("{:.2g}", c.tolerance);
   texts["float_tolerance"] = fmt::format("{:.2g}", c.float_tolerance);
   texts["verdict"] = c.verdict;
@@ -348,6 +372,7 @@ std::string idiom_file(const IdiomRequest& request) {
                              : habit.axis == 'y' ? "0, 1, 0"
                                                  : "0, 0, 1"},
                     {"order", habit.real_part_first ? "w, x, y, z" : "x, y, z, w"}});
+  if (&idiom.language == &rust) texts["axis"] = with_points(texts["axis"]);
   texts.merge(npm_texts(program, program.engine, candidate, cases.front().configuration));
   const Tags of_file = {"engine", "solid", idiom.name, habit.real_part_first ? "wxyz" : "xyzw"};
   const auto tags_of = [&](const IdiomCase& c) {
@@ -358,7 +383,8 @@ std::string idiom_file(const IdiomRequest& request) {
     result.push_back(name.substr(name.find('-') + 1));
     return result;
   };
-  // MuJoCo 2 leaves contacts out for which it has no room: Touchstone's own have at most eight points.
+  // MuJoCo 2 leaves contacts out for which it has no room: Touchstone's own have at most eight
+  // points.
   texts["room"] = std::to_string(8 * cases.size());
   Tags of_all = tags;
   for (const IdiomCase& c : cases) {
@@ -405,7 +431,7 @@ std::string idiom_file(const IdiomRequest& request) {
     }
     texts["place"] = fmt::format("{} {} 0", square % in_row * side, square / in_row * side);
     ++square;
-    if (!is_model && texts["shape_b"] != shape) {
+    if (has_program(idiom.language) && texts["shape_b"] != shape) {
       shape = texts["shape_b"];
       Texts symbolic = texts;
       if (&idiom.language == &javascript) {

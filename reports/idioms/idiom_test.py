@@ -8,18 +8,19 @@ with our own routine in the engine's place all of these pass. OPTIONs are those 
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
 
 EXPECTED = {"gtest": r'(EXPECT_EQ\(verdict\(\), )"([a-z-]+)"', "boost": r'(BOOST_CHECK_EQUAL\(verdict\(\), )"([a-z-]+)"',
-            "unittest": r'( expected=)"([a-z-]+)"', "mjcf": r'(\.verdict" data=)"([a-z-]+)"', "js": r"(\), |reachOf\w+\), )'([a-z-]+)'(?=\);)"}
+            "unittest": r'( expected=)"([a-z-]+)"', "rust": r'(assert_eq!\(verdict\(&c\), )"([a-z-]+)"', "mjcf": r'(\.verdict" data=)"([a-z-]+)"', "js": r"(\), |reachOf\w+\), )'([a-z-]+)'(?=\);)"}
 NAMES = {"gtest": r"^TEST_F\((\w+), (\w+)\)", "boost": r"^BOOST_FIXTURE_TEST_CASE\((\w+?)_(\w+), ",
          "unittest": r"^(?:class (\w+)\(CylinderContact\)|    def test_(\w+)\()", "js": r"^test\('(\S+) (\S+)'",
-         "mjcf": r'<pair name="(\S+)/(\S+)"'}
+         "rust": r"^fn cylinder_([a-z]+)_(\w+)\(\)", "mjcf": r'<pair name="(\S+)/(\S+)"'}
 FAILED = {"gtest": r"^\[  FAILED  \] (\w+\.\w+)", "boost": r'error: in "(\w+)"',
           "unittest": r"^FAIL: test_(\w+) \(\w+\.(\w+)", "js": r"^not ok \d+ - (\S+ \S+)",
-          "mjcf": r"^FAILED (\S+):"}
+          "rust": r"^test cylinder_(\w+) \.\.\. FAILED", "mjcf": r"^FAILED (\S+):"}
 
 # The module that a file of unittest imports: the engine of candidates/clients with half of its depths, so that it is
 # wrong wherever bodies overlap; or our routine. As a program it is the candidate.
@@ -128,8 +129,8 @@ class File:
         """Every case is expected to be right, and our routine may answer instead."""
         quote = "'" if self.idiom == "js" else '"'
         text = re.sub(EXPECTED[self.idiom], rf"\1{quote}right{quote}", self.text)
-        if self.idiom in ("unittest", "mjcf"):
-            return text  # what its module, or its reader, answers by our routine
+        if self.idiom in ("unittest", "mjcf", "rust"):
+            return text  # what its module, its reader or the crate beside it answers by our routine
         if self.idiom != "js":
             text = text.replace("namespace {\n", HEADERS_CPP + "namespace {\n", 1)
             text = text.replace(" protected:\n", " public:\n")
@@ -156,6 +157,17 @@ class File:
             program = re.search(r"python3 -m unittest -v (\S+)", self.text)[1]
             (self.folder / program).write_text(text)
             return [sys.executable, "-Bm", "unittest", "-v", program]
+        if self.idiom == "rust":
+            name = re.search(r"tests/(\S+\.rs)", self.text)[1]
+            (self.folder / name).write_text(text)
+            for stand_in in ("parry3d.rs", "parry.mjs"):
+                shutil.copy(pathlib.Path(__file__).with_name(stand_in), self.folder)
+            packages = self.folder / "node_modules"
+            if not packages.exists():
+                packages.symlink_to(pathlib.Path(os.environ["TOUCHSTONE_NPM"]) / "node_modules")
+            for command in (["--crate-type=rlib", "parry3d.rs"], ["--test", name, "--extern=parry3d=libparry3d.rlib"]):
+                subprocess.run(["rustc", "--edition=2021", "-Dwarnings", *command], check=True, cwd=self.folder)
+            return ["./" + name.removesuffix(".rs")]
         if self.idiom == "mjcf":
             (self.folder / "contacts.xml").write_text(text)
             return [pathlib.Path(self.program).parent / "reports/idioms/mjcf_reader", "contacts.xml"]
@@ -187,7 +199,7 @@ class File:
         return failed
 
     def printed(self, name):
-        separator = {"gtest": ".", "boost": "_", "js": " ", "mjcf": "/"}
+        separator = {"gtest": ".", "boost": "_", "rust": "_", "js": " ", "mjcf": "/"}
         return name.replace(".", separator[self.idiom]) if self.idiom in separator else "test_" + name.split(".")[1]
 
 
