@@ -126,10 +126,30 @@ std::vector<std::string> built_to_name(bool peers) {
   return names;
 }
 
+/// A name's parts. The release of an engine from npm belongs to the family, whose parameter stands
+/// before it: "jolt-margin:0.01@0.30" is of the family "jolt-margin@0.30".
+struct NameParts {
+  std::string family;
+  std::optional<std::string> parameter;
+};
+NameParts parts_of(std::string_view name) {
+  const auto colon = name.find(':');
+  NameParts parts{std::string(name.substr(0, colon)), std::nullopt};
+  if (colon == name.npos) return parts;
+  const std::string_view rest = name.substr(colon + 1);
+  const auto at = rest.find('@');
+  parts.parameter = rest.substr(0, at);
+  if (at != rest.npos) parts.family += rest.substr(at);
+  return parts;
+}
+
 Candidate member(const Candidate& family, double value) {
   Candidate c = family;
   const bool bare = family.parameter->bare && value == family.parameter->usual;
-  c.name = bare ? family.family : family.family + ':' + number(value);
+  const std::size_t release = npm_release(family.family).size();
+  const std::size_t end = family.family.size() - (release > 0 ? release + 1 : 0);
+  if (!bare)
+    c.name = family.family.substr(0, end) + ':' + number(value) + family.family.substr(end);
   c.value = value;
   return c;
 }
@@ -165,19 +185,16 @@ class Registry {
 
   const Candidate& find(std::string_view name) {
     if (const Candidate* const c = known(name)) return *c;
-    const auto colon = name.find(':');
+    const auto [family, parameter] = parts_of(name);
     for (const Candidate& c : known_) {
-      if (c.family != name.substr(0, colon)) continue;
-      if (colon == std::string_view::npos) return c;
-      return find_member(c, name, name.substr(colon + 1));
+      if (c.family == family) return parameter ? find_member(c, name, *parameter) : c;
     }
-    const std::string family(name.substr(0, colon));
     if (const auto file = plugin_to_name(family)) {
       add(PluginProcess(*file).candidates(), {"--candidates", family}, std::nullopt, false);
       return find(name);
     }
     if (const NpmEngine* const engine = find_npm_engine(family)) {
-      add_npm_engine(*engine, name);
+      add_npm_engine(*engine, family, name);
       return find(name);
     }
     if (name.find('/') != std::string_view::npos || name.ends_with(".so")) {
@@ -220,14 +237,37 @@ class Registry {
     }
   }
 
+  /// What the engine's adapter says that it is. An old release may lack what the adapter calls.
+  static Candidate npm_candidate(const NpmEngine& engine, std::string_view release,
+                                 const Added& subject) {
+    try {
+      return told_by(npm_command(engine, release), npm_folder(), subject);
+    } catch (const NoHost&) {
+      throw;
+    } catch (const InvalidInput& e) {
+      const auto reason = e.remedy().find("unsupported: ");
+      if (reason == std::string::npos) throw;
+      throw InvalidInput(subject.option, in_quotes(subject.value),
+                         "is " + e.remedy().substr(reason));
+    }
+  }
+
   /// Engines from npm are known once they are named, and in no list before or after.
-  void add_npm_engine(const NpmEngine& engine, std::string_view name) {
+  void add_npm_engine(const NpmEngine& engine, const std::string& family, std::string_view name) {
     const Added subject{"--candidates", std::string(name)};
-    if (const std::string obstacle = npm_obstacle(engine); !obstacle.empty()) {
+    const std::string_view release = npm_release(family);
+    constexpr const char* in_release =
+        "0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ.-+";
+    if (family.ends_with('@') || release.find_first_not_of(in_release) != release.npos) {
+      throw InvalidInput(subject.option, in_quotes(subject.value),
+                         "must be \"" + std::string(engine.family) +
+                             "@\" and a release or its beginning, as 1.0.2 or 1.0");
+    }
+    if (const std::string obstacle = npm_obstacle(engine, release); !obstacle.empty()) {
       throw InvalidInput(subject.option, in_quotes(subject.value), "is unavailable: " + obstacle);
     }
-    const Candidate candidate = told_by(npm_command(engine), npm_folder(), subject);
-    if (candidate.family != engine.family) {
+    const Candidate candidate = npm_candidate(engine, release, subject);
+    if (candidate.family != family) {
       throw InvalidInput(subject.option, in_quotes(subject.value),
                          "is unavailable: its adapter says that it is " + candidate.family);
     }
@@ -391,10 +431,10 @@ std::vector<const Candidate*> find_candidates(const std::vector<std::string>& na
     const bool goes_on = !family.empty() && !text.empty() &&
                          (std::isdigit(static_cast<unsigned char>(text[0])) || text[0] == '.');
     const std::string name = goes_on ? family + ':' + text : text;
-    const auto colon = name.find(':');
-    family = colon == std::string::npos ? "" : name.substr(0, colon);
-    if (colon != std::string::npos && name.find("..") != std::string::npos) {
-      for (const double v : sweep(find_candidate(family), name.substr(colon + 1))) {
+    const auto parts = parts_of(name);
+    family = parts.parameter ? parts.family : "";
+    if (parts.parameter && parts.parameter->find("..") != std::string::npos) {
+      for (const double v : sweep(find_candidate(family), *parts.parameter)) {
         add(find_candidate(family + ':' + number(v)));
       }
     } else {

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <dlfcn.h>
+#include <filesystem>
+#include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <random>
@@ -89,6 +92,61 @@ TEST(FindCandidate, ListsANameOnceThatACommandHasTaken) {
     const auto first = e.remedy().find(" havok,");
     EXPECT_NE(first, std::string::npos);
     EXPECT_EQ(e.remedy().find(" havok,", first + 1), std::string::npos) << e.remedy();
+  }
+}
+
+/// While it lives, node is a program that says what an adapter for a release would.
+class PlayedNode {
+ public:
+  PlayedNode() {
+    std::filesystem::create_directories(folder_);
+    std::ofstream(folder_ / "node") << R"(#!/bin/sh
+if [ "$1" = physx.mjs ]; then echo "unsupported: it has no cylinder" >&2; exit 2; fi
+read -r line
+echo '{"touchstone":1,"name":"jolt-margin@'$TOUCHSTONE_RELEASE'","version":"0.30.0","settings":"",
+"precision":"float","runs":"wasm","format":"lines",
+"pairs":["cylinder-box"],"parameter":{"meaning":"margin","min":0,"max":1,"usual":0.5}}' | tr -d '\n'
+echo; cat
+)";
+    std::filesystem::permissions(folder_ / "node", std::filesystem::perms::owner_all);
+    for (const char* package : {"jolt-physics@0.30", "jolt-physics@0.31", "physx-js-webidl@1"}) {
+      const auto name = std::string(package).substr(0, std::string(package).find('@'));
+      const auto folder = folder_ / "versions" / package / "node_modules" / name;
+      std::filesystem::create_directories(folder);
+      std::ofstream(folder / "package.json") << "{}";
+    }
+    setenv("PATH", (folder_.string() + ':' + path_).c_str(), 1);
+    setenv("TOUCHSTONE_NPM", folder_.c_str(), 1);
+  }
+  ~PlayedNode() {
+    setenv("PATH", path_.c_str(), 1);
+    unsetenv("TOUCHSTONE_NPM");
+    std::filesystem::remove_all(folder_);
+  }
+
+ private:
+  const std::filesystem::path folder_ = testing::TempDir() + "played-node";
+  const std::string path_ = std::getenv("PATH");
+};
+
+TEST(FindCandidates, KnowTheReleasesOfAnEngineFromNpm) {
+  const PlayedNode node;
+  EXPECT_THAT(
+      names({"jolt-margin@0.30", "jolt-margin:0.02@0.30", "0.03", "jolt-margin:0.02@0.31",
+             "jolt-margin:1e-3..1e-2@0.31"}),
+      ElementsAre("jolt-margin:0.5@0.30", "jolt-margin:0.02@0.30", "jolt-margin:0.03@0.30",
+                  "jolt-margin:0.02@0.31", "jolt-margin:0.001@0.31", "jolt-margin:0.01@0.31"));
+  EXPECT_EQ(find_candidate("jolt-margin:0.02@0.30").value, 0.02);
+  const std::pair<const char*, const char*> wrong[] = {
+      {"jolt-margin:2@0.30", "from 0 to 1"},
+      {"jolt-margin:0.1@", "a release or its beginning"},
+      {"rapier@1;exit", "a release or its beginning"},
+      {"rapier@0.9", "@dimforge/rapier3d-compat@0.9 is not in "},
+      {"physx@1", "is unsupported: it has no cylinder"},
+      {"bullet@2", "must be one of reference, "}};
+  for (const auto& [name, reason] : wrong) {
+    EXPECT_THAT([&] { find_candidate(name); },
+                testing::ThrowsMessage<InvalidInput>(AllOf(HasSubstr(name), HasSubstr(reason))));
   }
 }
 

@@ -48,11 +48,16 @@ const std::vector<NpmEngine>& npm_engines() {
   return engines;
 }
 
-const NpmEngine* find_npm_engine(std::string_view family) {
+const NpmEngine* find_npm_engine(std::string_view name) {
   const auto& all = npm_engines();
-  const auto found = std::find_if(all.begin(), all.end(),
-                                  [&](const NpmEngine& engine) { return engine.family == family; });
+  const auto found =
+      std::ranges::find(all, name.substr(0, name.find_first_of(":@")), &NpmEngine::family);
   return found == all.end() ? nullptr : &*found;
+}
+
+std::string_view npm_release(std::string_view name) {
+  const auto at = name.find('@');
+  return at == name.npos || !find_npm_engine(name) ? "" : name.substr(at + 1);
 }
 
 std::filesystem::path npm_folder() {
@@ -66,25 +71,34 @@ std::filesystem::path npm_folder() {
   return program;
 }
 
-std::string npm_obstacle(const NpmEngine& engine) {
+std::string npm_obstacle(const NpmEngine& engine, std::string_view release) {
   if (!is_on_path("node")) {
     return std::string("node is not installed; ") +
            (is_in_clone() ? "./touchstone installs it when it can"
                           : "install Debian's packages nodejs and npm");
   }
-  const auto package = packages() / "node_modules" / engine.package / "package.json";
-  if (std::filesystem::exists(package)) return "";
-  const std::string missing = "npm's package " + std::string(engine.package) + " is not in ";
+  const std::string package(engine.package), wanted = package + '@' + std::string(release);
+  const auto folder = release.empty() ? packages() : packages() / "versions" / wanted;
+  if (std::filesystem::exists(folder / "node_modules" / package / "package.json")) return "";
+  const std::string missing =
+      "npm's package " + (release.empty() ? package : wanted) + " is not in ";
   if (is_in_clone()) {
-    return missing + packages().lexically_normal().string() +
+    return missing + folder.lexically_normal().string() +
            "; ./touchstone installs it there, or name a folder in TOUCHSTONE_NPM that has it";
   }
   const char* const given = std::getenv("TOUCHSTONE_NPM");
+  if (given && !release.empty()) {
+    return missing + folder.string() + "; run npm install --ignore-scripts --prefix " +
+           folder.string() + ' ' + wanted;
+  }
   return missing + (given ? given : "a folder that TOUCHSTONE_NPM names") +
          "; copy package.json and package-lock.json from " + npm_folder().string() +
          " into a folder, run npm ci --ignore-scripts there, and set TOUCHSTONE_NPM to it";
 }
 
-std::string npm_command(const NpmEngine& engine) { return "node " + std::string(engine.script); }
+std::string npm_command(const NpmEngine& engine, std::string_view release) {
+  const std::string script = "node " + std::string(engine.script);
+  return release.empty() ? script : "TOUCHSTONE_RELEASE=" + std::string(release) + ' ' + script;
+}
 
 }  // namespace touchstone

@@ -17,14 +17,18 @@ struct NpmEngine {
 
 const std::vector<NpmEngine>& npm_engines();
 
-/// The engine of that family, if there is one.
-const NpmEngine* find_npm_engine(std::string_view family);
+/// The engine of a candidate, "jolt-margin:0.01@0.30", or of its family, if it is one of npm.
+const NpmEngine* find_npm_engine(std::string_view name);
 
-/// Why the engine cannot be asked here, and the remedy; empty if it can.
-std::string npm_obstacle(const NpmEngine& engine);
+/// What follows the "@" of an engine of npm: "0.14"; empty: the release of package-lock.json, or no
+/// such engine. ./touchstone installs a release in the folder versions/PACKAGE@RELEASE beside that.
+std::string_view npm_release(std::string_view name);
+
+/// Why the engine, or its release, cannot be asked here, and the remedy; empty if it can.
+std::string npm_obstacle(const NpmEngine& engine, std::string_view release = {});
 
 /// The command that asks it, and the folder of its script. Precondition: no obstacle.
-std::string npm_command(const NpmEngine& engine);
+std::string npm_command(const NpmEngine& engine, std::string_view release = {});
 std::filesystem::path npm_folder();
 
 }  // namespace touchstone

@@ -24,12 +24,16 @@ import { run } from '../clients/touchstone_candidate.mjs';
 import fs from 'node:fs';
 import path from 'node:path';
 import { FLOOR, makeFloor } from './floor.mjs';
-import { folderOf, load, middle, rotate, versionOf } from './packages.mjs';
+import { folderOf, load, middle, named, refuse, rotate, versionOf } from './packages.mjs';
 
 const { default: start } = await load('@babylonjs/havok');
 const havok = await start({
   wasmBinary: fs.readFileSync(path.join(folderOf('@babylonjs/havok'), 'lib/esm/HavokPhysics.wasm')),
 });
+
+if (!havok.HP_World_ShapeProximityWithCollector) {
+  refuse('it has no HP_World_ShapeProximityWithCollector');
+}
 
 /** The value of a call, which Havok pairs with a result code. */
 function checked([code, value]) {
@@ -87,7 +91,7 @@ function withBody(body, { position, orientation }, ask) {
 }
 
 run({
-  name: hasFloor ? 'havok-floor' : 'havok',
+  name: named(hasFloor ? 'havok-floor' : 'havok'),
   version: versionOf('@babylonjs/havok'),
   settings: (hasFloor ? 'plane or box as a mesh of N by N squares of two triangles; ' : '') +
     'ShapeProximity query of a world with one body, single precision, margins as made (a ' +

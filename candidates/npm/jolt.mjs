@@ -35,7 +35,9 @@
 // node jolt.mjs [margin-0 | margin | world | floor]
 import { run } from '../clients/touchstone_candidate.mjs';
 import { FLOOR, makeFloor } from './floor.mjs';
-import { ALL_PAIRS, Y_TO_Z, load, middle, multiply, smallest, versionOf } from './packages.mjs';
+import {
+  ALL_PAIRS, Y_TO_Z, load, middle, multiply, named, smallest, versionOf,
+} from './packages.mjs';
 
 const Jolt = await (await load('jolt-physics')).default();
 
@@ -302,7 +304,7 @@ if (margin.name === 'jolt-world') {
 }
 
 run({
-  name: margin.name,
+  name: named(margin.name),
   version: versionOf('jolt-physics'),
   precision: 'float',
   runs: 'wasm',

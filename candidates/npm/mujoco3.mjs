@@ -20,7 +20,7 @@
 //
 // node mujoco3.mjs [single]
 import { run } from '../clients/touchstone_candidate.mjs';
-import { ALL_PAIRS, load, multiply, rotate, turn } from './packages.mjs';
+import { ALL_PAIRS, load, multiply, named, rotate, turn } from './packages.mjs';
 
 const { default: start } = await load('@mujoco/mujoco');
 const mujoco = await start();
@@ -54,7 +54,7 @@ function dataFor(a, b, model) {
 }
 
 run({
-  name: single ? 'mujoco3-single' : 'mujoco3',
+  name: named(single ? 'mujoco3-single' : 'mujoco3'),
   version: mujoco.mj_versionString(),
   settings: `mj_collision, double precision; nativeccd, tolerance 1e-6, 35 iterations; multiccd ${
     single ? 'off' : 'on, as by default'}; points midway between the bodies`,

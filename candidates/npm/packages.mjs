@@ -1,24 +1,49 @@
 // What the engines of npm have in common: where their packages lie, and rotations.
 //
 // The packages of package-lock.json are installed (`npm ci --ignore-scripts`) in the folder
-// TOUCHSTONE_NPM, or build/npm of the source tree.
+// TOUCHSTONE_NPM, or build/npm of the source tree; where TOUCHSTONE_RELEASE names a release of the
+// adapter's package, that one is in versions/PACKAGE@RELEASE below it.
 import fs from 'node:fs';
 import path from 'node:path';
 import { createRequire } from 'node:module';
 import { fileURLToPath, pathToFileURL } from 'node:url';
 
-const folder = process.env.TOUCHSTONE_NPM ??
-  fileURLToPath(new URL('../../build/npm', import.meta.url));
-const packages = createRequire(path.join(path.resolve(folder), 'any.js'));
+const installed = path.resolve(process.env.TOUCHSTONE_NPM ??
+  fileURLToPath(new URL('../../build/npm', import.meta.url)));
+const release = process.env.TOUCHSTONE_RELEASE;
 
-/** The module of a package. */
-export const load = (name) => import(pathToFileURL(packages.resolve(name)));
+/** The name of a candidate: with the release that was asked for. */
+export const named = (name) => release ? `${name}@${release}` : name;
+
+/** The folder in which the adapter's package was installed. */
+const rootOf = (name) => release ? path.join(installed, 'versions', `${name}@${release}`) : installed;
 
 /** The folder of a package. */
-export const folderOf = (name) => path.join(path.resolve(folder), 'node_modules', name);
+export const folderOf = (name) => path.join(rootOf(name), 'node_modules', name);
 
-export const versionOf = (name) =>
-  JSON.parse(fs.readFileSync(path.join(folderOf(name), 'package.json'))).version;
+const described = (name) => JSON.parse(fs.readFileSync(path.join(folderOf(name), 'package.json')));
+
+export const versionOf = (name) => described(name).version;
+
+/** The module of a package. */
+export async function load(name) {
+  const from = (file) => import(pathToFileURL(file));
+  try {
+    return await from(createRequire(path.join(rootOf(name), 'any.js')).resolve(name));
+  } catch (error) {
+    // Rapier 0.15 and 0.17 call their CommonJS a module; the one is named beside it.
+    const { module } = described(name);
+    if (!release || !module) throw error;
+    return from(path.join(folderOf(name), module));
+  }
+}
+
+/** Ends where a release lacks what its adapter needs; the last line is told. */
+export function refuse(reason) {
+  console.error(`unsupported: ${reason}`);
+  process.exit(2);
+}
+if (release) process.on('uncaughtException', ({ message }) => refuse(`${release}: ${message}`));
 
 export const ALL_PAIRS = ['plane', 'sphere', 'capsule', 'cylinder', 'box', 'convex']
   .map((b) => `cylinder-${b}`);

@@ -30,10 +30,12 @@ import fs from 'node:fs';
 import path from 'node:path';
 import { FLOOR, makeFloor } from './floor.mjs';
 import {
-  ALL_PAIRS, folderOf, load, middle, multiply, rotate, smallest, turn, versionOf,
+  ALL_PAIRS, folderOf, load, middle, multiply, named, refuse, rotate, smallest, turn, versionOf,
 } from './packages.mjs';
 
 const PhysX = await loadAsInBrowser();
+const VERSION = [24, 16, 8].map((bits) => PhysX.PHYSICS_VERSION >> bits & 255).join('.');
+if (!PhysX.PxConvexCoreCylinder) refuse(`PhysX ${VERSION} has no cylinder (PxConvexCoreCylinder)`);
 const { PxTopLevelFunctions: Px, PxConvexCoreGeometryFactory: Cores, PxGjkQuery: Gjk } =
   Object.fromEntries(['PxTopLevelFunctions', 'PxConvexCoreGeometryFactory', 'PxGjkQuery']
     .map((name) => [name, PhysX[name].prototype]));
@@ -244,8 +246,8 @@ function sweepOf({ supports, b }, poseA, poseB, sweep) {
 const hasFloor = process.argv[2] === 'floor', inWorld = hasFloor || process.argv[2] === 'world';
 
 run({
-  name: hasFloor ? 'physx-floor' : inWorld ? 'physx-world' : 'physx',
-  version: `5.6.1 (${versionOf('physx-js-webidl')})`,
+  name: named(hasFloor ? 'physx-floor' : inWorld ? 'physx-world' : 'physx'),
+  version: `${VERSION} (${versionOf('physx-js-webidl')})`,
   settings: inWorld ?
     (hasFloor ? 'plane or box as PxTriangleMesh of N by N squares of two triangles; ' : '') +
     'contact report of a step of a scene, convex core of margin 0, single precision' :

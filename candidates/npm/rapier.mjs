@@ -25,12 +25,20 @@
 // node rapier.mjs [world | floor | floor-edges]
 import { run } from '../clients/touchstone_candidate.mjs';
 import { FLOOR, makeFloor } from './floor.mjs';
-import { ALL_PAIRS, Y_TO_Z, load, middle, multiply, rotate, versionOf } from './packages.mjs';
+import {
+  ALL_PAIRS, Y_TO_Z, load, middle, multiply, named, refuse, rotate, versionOf,
+} from './packages.mjs';
 
 const { default: RAPIER } = await load('@dimforge/rapier3d-compat');
 await RAPIER.init();
 
 const mode = process.argv[2];
+if (!RAPIER.Shape.prototype.contactShape) refuse('it has no Shape.contactShape');
+if (mode === 'floor-edges' && !RAPIER.TriMeshFlags?.FIX_INTERNAL_EDGES) {
+  refuse('it has no TriMeshFlags.FIX_INTERNAL_EDGES');
+}
+// Before 0.13 a cast has no target distance, and its time is `toi`.
+const TARGET = RAPIER.Shape.prototype.castShape?.length < 10 ? [] : [0];
 
 function makeShape(shape) {
   switch (shape.shape) {
@@ -90,23 +98,31 @@ const byQuery = {
     const atB = b.shape === 'plane' ? onPlane(b, poseB) : toVector(poseB.position);
     const turnB = toQuaternion(poseB, isAlongY(b)), still = toVector([0, 0, 0]);
     const found = shapeB.castShape(atB, turnB, still, shapeA, toVector(poseA.position),
-      toQuaternion(poseA, true), toVector(sweep), 0, 1, true);
+      toQuaternion(poseA, true), toVector(sweep), ...TARGET, 1, true);
     if (!found) return null;
     const normal = rotate([turnB.w, turnB.x, turnB.y, turnB.z], toArray(found.normal1));
-    return { fraction: found.time_of_impact, normal };
+    return { fraction: found.time_of_impact ?? found.toi, normal };
   },
 };
 
 const world = new RAPIER.World({ x: 0, y: 0, z: 0 });
 world.timestep = 1e-6;
-const OWN_PREDICTION = world.integrationParameters.normalizedPredictionDistance;
+// Before 0.13 the distance is not one of a normal length, and a step looks for contacts once more
+// when it has moved the bodies: A is held.
+const PREDICTION = ['normalizedPredictionDistance', 'predictionDistance']
+  .find((name) => name in world.integrationParameters);
+const makeBodyA = () => {
+  const body = RAPIER.RigidBodyDesc.dynamic();
+  return PREDICTION === 'predictionDistance' ? body.lockTranslations().lockRotations() : body;
+};
+const OWN_PREDICTION = world.integrationParameters[PREDICTION];
 
 const byWorld = {
   name: 'rapier-world',
   settings: 'contactPair after a step of a world, single precision, no margin; points midway ' +
     'between the bodies',
 
-  prepare: (a, b, threshold) => ({ b, threshold, bodyA: RAPIER.RigidBodyDesc.dynamic(),
+  prepare: (a, b, threshold) => ({ b, threshold, bodyA: makeBodyA(),
     bodyB: RAPIER.RigidBodyDesc.fixed(), colliderA: new RAPIER.ColliderDesc(makeShape(a)),
     colliderB: new RAPIER.ColliderDesc(makeShape(b)) }),
 
@@ -115,7 +131,7 @@ const byWorld = {
     const placeB = b.shape === 'floor' ? b.at(poseA, poseB) : poseB;
     const atB = b.shape === 'plane' ? onPlane(b, poseB) : toVector(placeB.position);
     const turnB = toQuaternion(placeB, isAlongY(b));
-    world.integrationParameters.normalizedPredictionDistance = Math.max(OWN_PREDICTION, threshold);
+    world.integrationParameters[PREDICTION] = Math.max(OWN_PREDICTION, threshold);
     bodyA.setTranslation(atA.x, atA.y, atA.z).setRotation(turnA);
     bodyB.setTranslation(atB.x, atB.y, atB.z).setRotation(turnB);
     const [madeB, madeA] = [bodyB, bodyA].map((body) => world.createRigidBody(body));
@@ -162,9 +178,11 @@ const onFloor = {
   },
 };
 
+const asked = { world: byWorld, floor: onFloor, 'floor-edges': onFloor }[mode] ?? byQuery;
 run({
   pairs: ALL_PAIRS,
-  ...{ world: byWorld, floor: onFloor, 'floor-edges': onFloor }[mode] ?? byQuery,
+  ...asked,
+  name: named(asked.name),
   version: versionOf('@dimforge/rapier3d-compat'),
   precision: 'float',
   runs: 'wasm',

@@ -18,7 +18,7 @@ namespace touchstone {
 // Made by the build from the files of the same names.
 extern const std::string_view page_html, pages_css, page_js, table_js;
 extern const std::string_view report_html, compare_html, replay_html, choose_html, engines_html,
-    motion_html;
+    motion_html, history_html;
 extern const std::string_view report_js, report_failures_js, report_tables_js, report_charts_js,
     report_method_js, casts_js;
 extern const std::string_view compare_js, replay_js, stability_js, choose_js, engines_js, motion_js;
@@ -128,16 +128,21 @@ Mark mark_of(std::string_view candidate) {
       {13, 1, {"physx", "physx-world", "physx-floor"}},
       {14, 5, {"havok", "havok-floor"}},
       {15, 4, {"mujoco3", "mujoco3-single"}}};
-  const std::string_view family = candidate.substr(0, candidate.find(':'));
+  const std::string_view family = candidate.substr(0, candidate.find_first_of(":@"));
+  const auto sum_of = [](std::string_view text) {
+    return std::accumulate(text.begin(), text.end(), std::size_t{0}, [](std::size_t total, char c) {
+      return total + static_cast<unsigned char>(c);
+    });
+  };
   for (const auto& [colour, first_symbol, settings] : engines) {
     const auto at = std::find(settings.begin(), settings.end(), family);
     if (at == settings.end()) continue;
-    return {colour, (first_symbol + static_cast<std::size_t>(at - settings.begin())) % symbols};
+    const auto release = std::min(candidate.find('@'), candidate.size());
+    return {colour, (first_symbol + static_cast<std::size_t>(at - settings.begin()) +
+                     sum_of(candidate.substr(release))) %
+                        symbols};
   }
-  const auto sum = std::accumulate(
-      candidate.begin(), candidate.end(), std::size_t{0},
-      [](std::size_t total, char c) { return total + static_cast<unsigned char>(c); });
-  return {other, sum % symbols};
+  return {other, sum_of(candidate) % symbols};
 }
 
 nlohmann::json faces_json(const Shape& shape) {

@@ -21,7 +21,8 @@ enum class Page { report, comparison, replay, stability, choice, engines };
 std::string render_page(Page page, const nlohmann::json& data);
 
 /// The mark of a candidate on every page and figure: a colour for each engine, a symbol for each of
-/// its settings. A candidate that is not known here is grey and has a symbol by its name.
+/// its settings and releases. A candidate that is not known here is grey and has a symbol by its
+/// name.
 struct Mark {
   std::size_t colour;  ///< 0 … 15: --c0 … --c15 of the pages' style sheet
   std::size_t symbol;  ///< 0 … 5: of `symbols` in page.js

@@ -66,7 +66,9 @@ std::span<const Program> programs() {
   return all;
 }
 
-std::string_view family_of(std::string_view name) { return name.substr(0, name.find(':')); }
+std::string_view family_of(std::string_view name) {
+  return name.substr(0, find_npm_engine(name) ? name.find_first_of(":@") : name.find(':'));
+}
 
 bool has_floor(const Program& program) { return program.tags.ends_with("floor"); }
 
@@ -110,7 +112,9 @@ Texts npm_texts(const Program& program, std::string_view name, const Candidate* 
                 const Configuration& c) {
   const NpmEngine* const engine = find_npm_engine(program.candidate);
   if (!engine) return {};
-  const std::string version = package_version(engine->package);
+  const std::string_view release = npm_release(name);
+  const std::string version =
+      release.empty() ? package_version(engine->package) : std::string(release);
   Texts texts{{"npm", std::string(engine->package)},
               {"version", version},
               {"package", fmt::format("{}@{}", engine->package, version)},
@@ -121,7 +125,7 @@ Texts npm_texts(const Program& program, std::string_view name, const Candidate* 
     texts["convex_rule"] = "0";
     rule = [](double) { return 0.0; };
   } else if (program.engine == "jolt-margin") {
-    const auto given = parse_double(name.substr(name.find(':') + 1));
+    const auto given = parse_double(name.substr(0, name.find('@')).substr(name.find(':') + 1));
     // As candidates/npm/jolt.mjs has it.
     if (!candidate && !(given && *given >= 0 && *given <= 1)) {
       throw InvalidInput("--emit", string_literal(name),

@@ -42,8 +42,8 @@ namespace {
 
 /// The candidate of that name; null if it cannot be asked here, which few programs need.
 const Candidate* askable_candidate(std::string_view name) {
-  const NpmEngine* const engine = find_npm_engine(family_of(name));
-  if (engine && !npm_obstacle(*engine).empty()) return nullptr;
+  const NpmEngine* const engine = find_npm_engine(name);
+  if (engine && !npm_obstacle(*engine, npm_release(name)).empty()) return nullptr;
   try {
     return &find_candidate(name);
   } catch (const InvalidInput& e) {
@@ -65,7 +65,7 @@ const Program& find_program(std::string_view name, std::string_view language,
   std::vector<const Program*> of_engine;
   for (const Program& p : programs()) {
     // Another setting of an engine is asked as the plug-in that it is.
-    const bool takes_number = find_npm_engine(family_of(name)) || has_floor(p);
+    const bool takes_number = find_npm_engine(name) || has_floor(p);
     if (p.engine == (takes_number ? family_of(name) : name) || p.candidate == name) {
       of_engine.push_back(&p);
     }
