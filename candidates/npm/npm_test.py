@@ -291,9 +291,9 @@ class Npm(unittest.TestCase):
 
 
 class Releases(Npm):
-    """Older releases, whose calls are others: Rapier's casts and prediction before 0.13, its modules of
-    0.15 and 0.17."""
-    names = ("rapier@0.12", "rapier-world@0.12", "rapier@0.15", "rapier-world@0.17", "rapier@0.20", "jolt@0.31",
+    """Older releases, whose calls are others: Rapier's casts and prediction before 0.13, its steps before
+    0.14, its modules of 0.15 and 0.17."""
+    names = ("rapier@0.12", "rapier-world@0.12", "rapier-world@0.13", "rapier@0.15", "rapier-world@0.17", "rapier@0.20", "jolt@0.31",
              "jolt-margin@0.31", "jolt-world@0.35", "havok@1.3.0", "mujoco3-single@3.10", "physx@2.7.2")
     with_casts = 7
     left_out = ("a capsule's end at the side",)  # old ones of Rapier miss it

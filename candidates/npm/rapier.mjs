@@ -107,14 +107,15 @@ const byQuery = {
 
 const world = new RAPIER.World({ x: 0, y: 0, z: 0 });
 world.timestep = 1e-6;
-// Before 0.13 the distance is not one of a normal length, and a step looks for contacts once more
-// when it has moved the bodies: A is held.
+// Before 0.13 the distance is not one of a normal length.
 const PREDICTION = ['normalizedPredictionDistance', 'predictionDistance']
   .find((name) => name in world.integrationParameters);
-const makeBodyA = () => {
+// Before 0.14 a step looks for contacts once more when it has moved the bodies: A is held.
+const isHeld = /^0[.]([0-9]|1[0-3])[.]/.test(versionOf('@dimforge/rapier3d-compat'));
+function makeBodyA() {
   const body = RAPIER.RigidBodyDesc.dynamic();
-  return PREDICTION === 'predictionDistance' ? body.lockTranslations().lockRotations() : body;
-};
+  return isHeld ? body.lockTranslations().lockRotations() : body;
+}
 const OWN_PREDICTION = world.integrationParameters[PREDICTION];
 
 const byWorld = {
