@@ -116,20 +116,26 @@ TEST(Vocabulary, ACapsulesSizeDoesNotOverflow) {
   EXPECT_EQ(largest_half_extent(Capsule(max_double, max_double)), max_double);
 }
 
-TEST(Vocabulary, SizesAreThoseOfTheSmallestAndLargestHalfExtent) {
-  const Configuration c{Cylinder(0.5, 2), Pose(), Capsule(0.25, 3), Pose()};
-  EXPECT_EQ(smaller_size(c), 0.25);
-  EXPECT_EQ(larger_size(c), 3.25);
-  const Configuration on_plane{Cylinder(0.5, 2), Pose(), Plane(Vec3(0, 0, 1), 1e9), Pose()};
-  EXPECT_EQ(smaller_size(on_plane), 0.5);
-  EXPECT_EQ(larger_size(on_plane), 2);
-}
-
-TEST(Vocabulary, PairsAreNamedAfterBothShapes) {
-  EXPECT_STREQ(pair_name(pair_of({Cylinder(1, 1), Pose(), Box(Vec3(1, 1, 1)), Pose()})),
-               "cylinder-box");
-  EXPECT_STREQ(pair_name(pair_of({Cylinder(1, 1), Pose(), Cylinder(1, 1), Pose()})),
-               "cylinder-cylinder");
+TEST(Vocabulary, PairsHaveBothNamesAndTheSmallestAndLargestHalfExtent) {
+  const struct {
+    Shape b;
+    std::string name;
+    double smaller, larger;
+  } table[] = {{Plane(Vec3(0, 0, 1), 1e9), "plane", 0.5, 2},
+               {Sphere(0.25), "sphere", 0.25, 2},
+               {Sphere(3), "sphere", 0.5, 3},
+               {Capsule(0.25, 3), "capsule", 0.25, 3.25},
+               {Cylinder(3, 0.25), "cylinder", 0.25, 3},
+               {Box(Vec3(0.25, 4, 3)), "box", 0.25, 4},
+               {Box(Vec3(3, 0.25, 4)), "box", 0.25, 4},
+               {Box(Vec3(4, 3, 0.25)), "box", 0.25, 4}};
+  for (const auto& [b, name, smaller, larger] : table) {
+    const Configuration c{Cylinder(0.5, 2), Pose(), b, Pose()};
+    EXPECT_EQ(pair_name(pair_of(c)), "cylinder-" + name);
+    EXPECT_EQ(shape_name(b), name);
+    EXPECT_EQ(smaller_size(c), smaller) << name;
+    EXPECT_EQ(larger_size(c), larger) << name;
+  }
 }
 
 TEST(Support, IsTheFarthestExtentAlongADirection) {

@@ -1,6 +1,5 @@
 #include "verification/mutation/judge.hpp"
 
-#include <cstring>
 #include <limits>
 
 namespace touchstone::mutation {
@@ -49,7 +48,6 @@ class Judge {
     }
     judge_distance();
     judge_certified();
-    judge_vocabulary();
     judge_bounds();
     judge_contacts();
     judge_hints();
@@ -99,39 +97,6 @@ class Judge {
     judge_arcs(made_, routines_, index, [&](bool holds, ArcCheck check) {
       expect(holds, Check::certified, 4 + static_cast<int>(check));
     });
-  }
-
-  void judge_vocabulary() {
-    const RawFacts facts = routines_.facts(made_);
-    static const char* const pairs[] = {"cylinder-plane",    "cylinder-sphere", "cylinder-capsule",
-                                        "cylinder-cylinder", "cylinder-box",    "cylinder-convex"};
-    static const char* const shapes[] = {"plane", "sphere", "capsule", "cylinder", "box", "convex"};
-    expect(facts.pair == case_.raw.pair &&
-               std::strcmp(facts.pair_name, pairs[geometry_.pair]) == 0 &&
-               std::strcmp(facts.shape_name, shapes[geometry_.pair]) == 0,
-           Check::vocabulary, 0);
-    constexpr Real ulps = 1e-15L;
-    expect(std::abs(facts.smaller_size - smaller_) <= ulps * smaller_ &&
-               std::abs(facts.larger_size - larger_) <= ulps * larger_,
-           Check::vocabulary, 1);
-    Real worst = 0;
-    for (int i = 0; i < 3; ++i) {
-      for (int j = 0; j < 3; ++j) {
-        const auto k = 3 * static_cast<std::size_t>(i) + static_cast<std::size_t>(j);
-        worst = std::max(worst, std::abs(facts.rotation_a[k] - geometry_.axes_a(i, j)));
-        worst = std::max(worst, std::abs(facts.rotation_b[k] - geometry_.axes_b(i, j)));
-      }
-    }
-    expect(worst <= 2 * ulps, Check::vocabulary, 2);
-    const Numbers3 some = {0.48, -0.6, 0.64};
-    const Vector n = vector(some).normalized();
-    const Real place = geometry_.position_a.dot(n), reach = geometry_.reach_of_a(n);
-    expect(std::abs(routines_.support_of_a(made_, some) - place - reach) <=
-               tolerance_ + promised * geometry_.position_a.norm(),
-           Check::vocabulary, 3);
-    if (geometry_.pair == plane) return;
-    expect(std::abs(routines_.gap(made_, some) - geometry_.gap(n)) <= tolerance_, Check::vocabulary,
-           4);
   }
 
   void judge_bounds() {
@@ -378,9 +343,9 @@ class Judge {
 
 const char* check_name(int check) {
   static const char* const names[check_count] = {
-      "finite", "distance",  "regret",   "certified",  "overlaps", "threshold", "clearance",
-      "points", "surfaces",  "coverage", "steadiness", "hint",     "exchange",  "vocabulary",
-      "bounds", "agreement", "refusal",  "batch",      "in-float"};
+      "finite",    "distance", "regret",    "certified", "overlaps",   "threshold",
+      "clearance", "points",   "surfaces",  "coverage",  "steadiness", "hint",
+      "exchange",  "bounds",   "agreement", "refusal",   "batch",      "in-float"};
   return names[check];
 }
 

@@ -233,14 +233,13 @@ enum class Check {
   steadiness,  ///< a motion that nobody sees moves no point
   hint,        ///< the previous normal decides between normals that tie, and nothing else
   exchange,    ///< cylinders exchanged have the mirrored answer, to the last bit
-  vocabulary,  ///< sizes, rotations, supports, gaps, names
   bounds,      ///< axis-aligned boxes
   agreement,   ///< among the routines themselves, the proven one being right
-  refusal,     ///< what is no shape, pose or batch is refused, and its field named
+  refusal,     ///< a batch of spans of different lengths is refused, and no configuration
   batch,       ///< batches have the bits of single pairs
   in_float     ///< answers in single precision are those in double, rounded
 };
-constexpr int check_count = 19;
+constexpr int check_count = 18;
 const char* check_name(int check);
 
 /// Each check is made at most this many times of one case, at different thresholds or hints.
@@ -266,7 +265,8 @@ RawConfiguration with_poses_exchanged(RawConfiguration raw);
 /// `agreement` and `certified`.
 Findings judge_agreement(const Case& c, const Routines& routines);
 
-/// Checks that shapes, poses and batches that cannot be are refused; independent of the cases.
+/// Checks that batches whose lengths differ are refused; independent of the cases. What is no shape
+/// or pose the unit tests hold.
 Findings judge_refusals(const Routines& routines);
 
 }  // namespace touchstone::mutation

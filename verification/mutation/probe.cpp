@@ -102,8 +102,8 @@ std::map<std::string, Findings> read_known(const char* file) {
   if (!f) throw std::runtime_error(std::string("cannot open ") + file);
   std::map<std::string, Findings> known;
   char bits[Findings().size() + 1], identity[400];
-  static_assert(Findings().size() == 152);
-  while (std::fscanf(f, "%152s %399s", bits, identity) == 2) known[identity] = Findings(bits);
+  static_assert(Findings().size() == 144);
+  while (std::fscanf(f, "%144s %399s", bits, identity) == 2) known[identity] = Findings(bits);
   std::fclose(f);
   return known;
 }

@@ -86,11 +86,6 @@ RawContact contact(const void* made, double threshold, const Numbers3* previous_
       touchstone::contact(of(made), threshold, previous_normal ? &previous : nullptr));
 }
 
-double gap(const void* made, const Numbers3& n) { return touchstone::gap(of(made), vector(n)); }
-double support_of_a(const void* made, const Numbers3& n) {
-  return support(of(made).a, of(made).pose_a, vector(n));
-}
-
 void bounds(const void* made, RawBounds& a, RawBounds& b) {
   const Aabb of_a = aabb(of(made).a, of(made).pose_a), of_b = aabb(of(made).b, of(made).pose_b);
   a = {numbers(of_a.lower), numbers(of_a.upper)};
@@ -98,16 +93,6 @@ void bounds(const void* made, RawBounds& a, RawBounds& b) {
 }
 bool bounds_overlap(const void* made) {
   return aabb(of(made).a, of(made).pose_a).overlaps(aabb(of(made).b, of(made).pose_b));
-}
-
-std::array<double, 9> rows(const Eigen::Matrix3d& m) {
-  return {m(0, 0), m(0, 1), m(0, 2), m(1, 0), m(1, 1), m(1, 2), m(2, 0), m(2, 1), m(2, 2)};
-}
-RawFacts facts(const void* made) {
-  const Configuration& c = of(made);
-  return {smaller_size(c),          larger_size(c),  static_cast<double>(pair_of(c)),
-          pair_name(pair_of(c)),    shape_name(c.b), rows(c.pose_a.rotation()),
-          rows(c.pose_b.rotation())};
 }
 
 RawArc arc(const void* made, double end1, double end2, double angle, double half_width) {
@@ -240,10 +225,9 @@ const char* refused_batch(const void* made, Batch how, int question, std::size_t
   return name.c_str();
 }
 
-const Routines routines = {
-    make,  release,      signed_distance, certified_distance, overlaps, contact,
-    gap,   support_of_a, bounds,          bounds_overlap,     facts,    arc,
-    batch, refused_batch};
+const Routines routines = {make,     release, signed_distance, certified_distance,
+                           overlaps, contact, bounds,          bounds_overlap,
+                           arc,      batch,   refused_batch};
 
 }  // namespace
 }  // namespace touchstone::mutation

@@ -48,14 +48,6 @@ struct RawBounds {
   Numbers3 lower, upper;
 };
 
-/// Sizes and names that the vocabulary tells of a configuration.
-struct RawFacts {
-  double smaller_size, larger_size;
-  double pair;
-  const char *pair_name, *shape_name;
-  std::array<double, 9> rotation_a, rotation_b;  ///< row by row
-};
-
 /// What the search of rims takes for proven of one arc of the smaller cylinder's rim
 /// (reference/rims.hpp), and the numbers that it has of the two rims.
 struct RawArc {
@@ -85,11 +77,8 @@ struct Routines {
   RawDistance (*certified_distance)(const void*);
   bool (*overlaps)(const void*);
   RawContact (*contact)(const void*, double threshold, const Numbers3* previous_normal);
-  double (*gap)(const void*, const Numbers3& n);
-  double (*support_of_a)(const void*, const Numbers3& n);
   void (*bounds)(const void*, RawBounds& a, RawBounds& b);
   bool (*bounds_overlap)(const void*);
-  RawFacts (*facts)(const void*);
   /// Two cylinders only; ends are +1 or −1, the angle and half width radians along the rim.
   RawArc (*arc)(const void*, double end1, double end2, double angle, double half_width);
   /// Answers of `count` pairs of the same shapes, every second one with the poses exchanged; in
