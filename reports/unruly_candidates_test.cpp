@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "candidates/host/interruption.hpp"
+#include "candidates/testing/hostile.hpp"
 #include "reports/replay.hpp"
 #include "reports/report_json.hpp"
 #include "reports/small_report_test.hpp"
@@ -96,9 +97,9 @@ TEST(Report, IsCompleteWhateverACandidateDoes) {
 /// The candidate that does what testing/hostile.cpp calls by this name.
 const Candidate* hostile(const std::string& deed) {
   static void* const library = dlopen(TOUCHSTONE_TEST_PLUGINS "/touchstone-hostile.so", RTLD_NOW);
-  const auto name = reinterpret_cast<const char* (*)(int)>(dlsym(library, "hostile_deed"));
+  const auto at = reinterpret_cast<const HostileDeed* (*)(int)>(dlsym(library, "hostile_deed"));
   int i = 0;
-  while (name(i) && name(i) != deed) ++i;
+  while (at(i) && at(i)->name != deed) ++i;
   return &find_candidate("hostile:" + std::to_string(i + 1));
 }
 

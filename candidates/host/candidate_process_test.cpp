@@ -42,29 +42,17 @@ Answer after_misdeed(int deed, const Limits& limits = {10, 256}) {
   return process.answer(standing);
 }
 
+// How other deeds end, hostile_test.cpp holds.
 TEST(CandidateProcess, SaysHowAMisdeedEnded) {
-#ifdef __SANITIZE_ADDRESS__
-  const testing::Matcher<std::string> segmentation_fault = testing::_, bad_alloc = testing::_;
-#else
-  const testing::Matcher<std::string> segmentation_fault = "Segmentation fault",
-                                      bad_alloc = "threw std::bad_alloc";
-#endif
   const struct {
     int deed;
     ts_status status;
     testing::Matcher<std::string> reason;
     double seconds = 10;
-  } misdeeds[] = {{1, TS_CRASHED, segmentation_fault},
-                  {2, TS_CRASHED, StartsWith("Aborted")},
-                  {3, TS_CRASHED, "threw no convergence"},
-                  {4, TS_CRASHED, "threw something that is no exception"},
+  } misdeeds[] = {{3, TS_CRASHED, "threw no convergence"},
                   {5, TS_TIMED_OUT, "no answer within 0.1 s", 0.1},
-                  {6, TS_TIMED_OUT, StartsWith("no answer"), 0.01},
-                  {7, TS_CRASHED, bad_alloc},
-                  {8, TS_CRASHED, "ended with exit code 0"},
                   {9, TS_CRASHED, testing::_},  // a million points, written
                   {10, TS_FAILED, ""},          // and claimed
-                  {13, TS_FAILED, ""},          // claims to have crashed
                   {15, TS_CRASHED, "threw no text ??"}};
   for (const auto& [deed, status, reason, seconds] : misdeeds) {
     const Answer a = after_misdeed(deed, {seconds, 256});

@@ -4,6 +4,8 @@
 // TOUCHSTONE_HOSTILE_EVERYWHERE in the environment: always), and otherwise answers normally.
 // TOUCHSTONE_HOSTILE_LOAD names a deed of the other list, which it performs when it is asked for
 // its description. Harm to the machine is bounded.
+#include "candidates/testing/hostile.hpp"
+
 #include <cfenv>
 #include <clocale>
 #include <csetjmp>
@@ -283,115 +285,126 @@ void print_much() {
 std::jmp_buf never_set;
 
 enum class When { query, prepare, release, answer };
-struct Deed {
-  const char* name;
+using End = HostileDeed::End;
+using enum HostileDeed::End;
+struct Deed : HostileDeed {
   When when;
   void (*plain)();
   void (*to_answer)(ts_answer&);
 };
-constexpr Deed in_query(const char* name, void (*deed)()) {
-  return {name, When::query, deed, nullptr};
+constexpr Deed in_query(const char* name, End ends, void (*deed)(), const char* reason = "") {
+  return {{name, ends, reason}, When::query, deed, nullptr};
 }
-constexpr Deed in_prepare(const char* name, void (*deed)()) {
-  return {name, When::prepare, deed, nullptr};
+constexpr Deed in_prepare(const char* name, End ends, void (*deed)(), const char* reason = "") {
+  return {{name, ends, reason}, When::prepare, deed, nullptr};
 }
-constexpr Deed in_release(const char* name, void (*deed)()) {
-  return {name, When::release, deed, nullptr};
+constexpr Deed in_release(const char* name, End ends, void (*deed)(), const char* reason = "") {
+  return {{name, ends, reason}, When::release, deed, nullptr};
 }
-constexpr Deed in_answer(const char* name, void (*deed)(ts_answer&)) {
-  return {name, When::answer, nullptr, deed};
+constexpr Deed in_answer(const char* name, End ends, void (*deed)(ts_answer&),
+                         const char* reason = "") {
+  return {{name, ends, reason}, When::answer, nullptr, deed};
 }
 
 constexpr Deed deeds[] = {
-    in_query("nothing", [] {}),
-    in_query("segmentation fault", crash),
-    in_query("division", divide),
-    in_query("abort", std::abort),
-    in_query("SIGTERM", raise_it<SIGTERM>),
-    in_query("SIGINT", raise_it<SIGINT>),
-    in_query("SIGKILL", raise_it<SIGKILL>),
-    in_query("SIGSTOP", raise_it<SIGSTOP>),
-    in_query("SIGALRM", raise_it<SIGALRM>),
-    in_query("SIGBUS", raise_it<SIGBUS>),
-    in_query("exit", leave),
-    in_query("_exit", [] { _exit(0); }),
-    in_query("quick_exit", [] { std::quick_exit(0); }),
-    in_query("exit with the host's own code", [] { _exit(97); }),
-    in_query("exit with a handler that hangs", leave_slowly),
-    in_query("leave the session to a child", leave_to_child),
-    in_query("throw", throw_number),
-    in_query("endless loop", work_for_ever),
-    in_query("sleep", [] { sleep(1000); }),
-    in_query("pause", wait_for_ever),
-    in_query("doze", doze),
-    in_query("read standard input", read_input),
-    in_query("read a pipe of its own", read_own_pipe),
-    in_query("deadlock", take_lock_twice),
-    in_query("fork, both pause", fork_and_both_wait),
-    in_query("fork, both return", [] { fork(); }),
-    in_query("fork, the child pauses", fork_and_leave_one_waiting),
-    in_query("vfork, the child pauses", vfork_and_wait),
-    in_query("daemon", daemon_that_waits),
-    in_query("thirty-two processes", multiply),
-    in_query("daemon that kills all later", daemon_that_kills_all),
-    in_query("thread left working", leave_a_thread_working),
-    in_query("write to all descriptors", write_everywhere),
-    in_query("write to all descriptors for ever", write_everywhere_for_ever),
-    in_query("close all descriptors", close_everything),
-    in_query("shut all sockets", shut_everything),
-    in_query("read all descriptors", read_everything),
-    in_query("replace all descriptors", replace_everything),
-    in_query("interrupt the group", kill_group<SIGINT>),
-    in_query("kill the group", kill_group<SIGKILL>),
-    in_query("stop the group", kill_group<SIGSTOP>),
-    in_query("kill everyone", kill_everyone<SIGKILL>),
-    in_query("stop everyone", kill_everyone<SIGSTOP>),
-    in_query("kill the parent", kill_parent<SIGKILL>),
-    in_query("stop the parent", kill_parent<SIGSTOP>),
-    in_query("interrupt the parent", kill_parent<SIGINT>),
-    in_query("kill the parent's group", kill_parents_group<SIGKILL>),
-    in_query("be traced", trace_me),
-    in_query("trace the parent", [] { ptrace(PTRACE_ATTACH, getppid(), nullptr, nullptr); }),
-    in_query("block all signals and loop", block_signals_and_work),
-    in_query("handle all signals and crash", handle_signals_and_crash),
-    in_query("handle crashes and crash", handle_crashes_and_crash),
-    in_query("alarm", [] { alarm(1); }),
-    in_query("timer", set_timer),
-    in_query("lower limits", lower_limits),
-    in_query("raise limits", raise_limits),
-    in_query("allocate a tebibyte", allocate),
-    in_query("overflow the stack",
-             [] { nowhere = static_cast<std::uintptr_t>(recurse(0)) * nowhere; }),
-    in_query("change folder, mask, locale, environment", change_surroundings),
-    in_query("remove its folder", remove_folder),
-    in_query("round upward", [] { std::fesetround(FE_UPWARD); }),
-    in_query("flush subnormals", [] { _mm_setcsr(_mm_getcsr() | 0x8040); }),
-    in_query("trap on inexact", [] { feenableexcept(FE_ALL_EXCEPT); }),
-    in_query("overwrite shared memory with ones", [] { overwrite_shared(0xff); }),
-    in_query("overwrite shared memory with zeros", [] { overwrite_shared(0); }),
-    in_query("overwrite shared memory and crash", overwrite_and_crash),
-    in_query("overwrite shared memory and pause", overwrite_and_wait),
-    in_query("unmap shared memory", unmap_shared),
-    in_query("print 40 MiB", print_much),
-    in_query("jump nowhere", [] { std::longjmp(never_set, 1); }),
-    in_query("end the thread", [] { pthread_exit(nullptr); }),
-    in_prepare("crash in prepare", crash),
-    in_prepare("exit in prepare", leave),
-    in_prepare("throw in prepare", throw_number),
-    in_prepare("pause in prepare", wait_for_ever),
-    in_release("crash in release", crash),
-    in_release("exit in release", leave),
-    in_release("pause in release", wait_for_ever),
-    in_answer("a billion points", [](ts_answer& a) { a.point_count = 1000000000; }),
-    in_answer("minus one point", [](ts_answer& a) { a.point_count = -1; }),
-    in_answer("not a number",
+    in_query("nothing", answered, [] {}),
+    in_query("segmentation fault", crashed, crash, "Segmentation fault"),
+    in_query("division", crashed, divide, "Floating point exception"),
+    in_query("abort", crashed, std::abort, "Aborted"),
+    in_query("SIGTERM", crashed, raise_it<SIGTERM>, "Terminated"),
+    in_query("SIGINT", crashed, raise_it<SIGINT>, "Interrupt"),
+    in_query("SIGKILL", crashed, raise_it<SIGKILL>, "Killed"),
+    in_query("SIGSTOP", timed_out, raise_it<SIGSTOP>, "waited"),
+    in_query("SIGALRM", crashed, raise_it<SIGALRM>, "Alarm clock"),
+    in_query("SIGBUS", crashed, raise_it<SIGBUS>, "Bus error"),
+    in_query("exit", crashed, leave, "exit code 0"),
+    in_query(
+        "_exit", crashed, [] { _exit(0); }, "exit code 0"),
+    in_query(
+        "quick_exit", crashed, [] { std::quick_exit(0); }, "exit code 0"),
+    in_query("exit with the host's own code", crashed, [] { _exit(97); }),
+    in_query("exit with a handler that hangs", timed_out, leave_slowly, "waited"),
+    in_query("leave the session to a child", answered_or_crashed, leave_to_child),
+    in_query("throw", crashed, throw_number, "no exception"),
+    in_query("endless loop", timed_out, work_for_ever, "no answer within"),
+    in_query(
+        "sleep", timed_out, [] { sleep(1000); }, "waited"),
+    in_query("pause", timed_out, wait_for_ever, "waited"),
+    in_query("doze", timed_out, doze, "waited"),
+    in_query("read standard input", answered, read_input),
+    in_query("read a pipe of its own", timed_out, read_own_pipe, "waited"),
+    in_query("deadlock", timed_out, take_lock_twice, "waited"),
+    in_query("fork, both pause", timed_out, fork_and_both_wait, "waited"),
+    in_query("fork, both return", answered, [] { fork(); }),
+    in_query("fork, the child pauses", answered, fork_and_leave_one_waiting),
+    in_query("vfork, the child pauses", timed_out, vfork_and_wait, "waited"),
+    in_query("daemon", answered, daemon_that_waits),
+    in_query("thirty-two processes", timed_out, multiply, "waited"),
+    in_query("daemon that kills all later", answered, daemon_that_kills_all),
+    in_query("thread left working", answered, leave_a_thread_working),
+    in_query("write to all descriptors", answered, write_everywhere),
+    in_query("write to all descriptors for ever", timed_out, write_everywhere_for_ever),
+    in_query("close all descriptors", answered_or_crashed, close_everything),
+    in_query("shut all sockets", answered_or_crashed, shut_everything),
+    in_query("read all descriptors", timed_out, read_everything, "waited"),
+    in_query("replace all descriptors", answered_or_crashed, replace_everything),
+    in_query("interrupt the group", crashed, kill_group<SIGINT>, "Interrupt"),
+    in_query("kill the group", crashed, kill_group<SIGKILL>, "Killed"),
+    in_query("stop the group", timed_out, kill_group<SIGSTOP>, "waited"),
+    in_query("kill everyone", answered_or_crashed, kill_everyone<SIGKILL>),
+    in_query("stop everyone", whatever, kill_everyone<SIGSTOP>),
+    in_query("kill the parent", answered_or_crashed, kill_parent<SIGKILL>),
+    in_query("stop the parent", answered_or_crashed, kill_parent<SIGSTOP>),
+    in_query("interrupt the parent", answered_or_crashed, kill_parent<SIGINT>),
+    in_query("kill the parent's group", answered_or_crashed, kill_parents_group<SIGKILL>),
+    in_query("be traced", crashed, trace_me),
+    in_query("trace the parent", answered_or_crashed,
+             [] { ptrace(PTRACE_ATTACH, getppid(), nullptr, nullptr); }),
+    in_query("block all signals and loop", timed_out, block_signals_and_work, "no answer within"),
+    in_query("handle all signals and crash", crashed, handle_signals_and_crash,
+             "Segmentation fault"),
+    in_query("handle crashes and crash", timed_out, handle_crashes_and_crash, "no answer within"),
+    in_query("alarm", answered, [] { alarm(1); }),
+    in_query("timer", answered_or_crashed, set_timer),
+    in_query("lower limits", answered, lower_limits),
+    in_query("raise limits", answered, raise_limits),
+    in_query("allocate a tebibyte", crashed, allocate, "std::bad_alloc"),
+    in_query(
+        "overflow the stack", crashed,
+        [] { nowhere = static_cast<std::uintptr_t>(recurse(0)) * nowhere; }, "Segmentation fault"),
+    in_query("change folder, mask, locale, environment", answered, change_surroundings),
+    in_query("remove its folder", answered, remove_folder),
+    in_query("round upward", answered, [] { std::fesetround(FE_UPWARD); }),
+    in_query("flush subnormals", answered, [] { _mm_setcsr(_mm_getcsr() | 0x8040); }),
+    in_query("trap on inexact", answered_or_crashed, [] { feenableexcept(FE_ALL_EXCEPT); }),
+    in_query("overwrite shared memory with ones", answered, [] { overwrite_shared(0xff); }),
+    in_query("overwrite shared memory with zeros", answered, [] { overwrite_shared(0); }),
+    in_query("overwrite shared memory and crash", crashed, overwrite_and_crash,
+             "Segmentation fault"),
+    in_query("overwrite shared memory and pause", timed_out, overwrite_and_wait, "waited"),
+    in_query("unmap shared memory", crashed, unmap_shared, "Segmentation fault"),
+    in_query("print 40 MiB", answered, print_much),
+    in_query("jump nowhere", crashed, [] { std::longjmp(never_set, 1); }),
+    in_query("end the thread", crashed, [] { pthread_exit(nullptr); }),
+    in_prepare("crash in prepare", crashed, crash, "Segmentation fault"),
+    in_prepare("exit in prepare", crashed, leave, "exit code 0"),
+    in_prepare("throw in prepare", crashed, throw_number, "no exception"),
+    in_prepare("pause in prepare", timed_out, wait_for_ever, "waited"),
+    in_release("crash in release", crashed, crash, "Segmentation fault"),
+    in_release("exit in release", crashed, leave, "exit code 0"),
+    in_release("pause in release", timed_out, wait_for_ever, "waited"),
+    in_answer("a billion points", failed, [](ts_answer& a) { a.point_count = 1000000000; }),
+    in_answer("minus one point", failed, [](ts_answer& a) { a.point_count = -1; }),
+    in_answer("not a number", answered,
               [](ts_answer& a) { a.signed_distance = std::numeric_limits<double>::quiet_NaN(); }),
-    in_answer("unknown status",
+    in_answer("unknown status", failed,
               [](ts_answer& a) { std::memset(&a.status, 0x77, sizeof a.status); }),
-    in_answer("claim a timeout", [](ts_answer& a) { a.status = TS_TIMED_OUT; }),
-    in_answer("write beyond the answer",
-              [](ts_answer& a) { std::memset(&a.points[TOUCHSTONE_MAX_POINTS], 1, 4096); }),
-    in_answer("write before the answer",
+    in_answer("claim a timeout", failed, [](ts_answer& a) { a.status = TS_TIMED_OUT; }),
+    in_answer(
+        "write beyond the answer", crashed,
+        [](ts_answer& a) { std::memset(&a.points[TOUCHSTONE_MAX_POINTS], 1, 4096); },
+        "Segmentation fault"),
+    in_answer("write before the answer", answered,
               [](ts_answer& a) { std::memset(reinterpret_cast<char*>(&a) - 3000, 1, 3000); }),
 };
 constexpr int count = sizeof deeds / sizeof *deeds;
@@ -501,7 +514,7 @@ const ts_plugin* touchstone_plugin() {
   return &plugin;
 }
 
-/// The names of the deeds in order, for the test, which does not perform them.
-extern "C" TOUCHSTONE_EXPORT const char* hostile_deed(int i) {
-  return i < count ? deeds[i].name : nullptr;
+/// The deeds in order, for the test, which does not perform them; null after the last.
+extern "C" TOUCHSTONE_EXPORT const HostileDeed* hostile_deed(int i) {
+  return i < count ? &deeds[i] : nullptr;
 }
