@@ -60,33 +60,28 @@ void for_engines(const Check& check) {
   }
 }
 
-TEST(Adapters, AgreeOnPlainContactsInDepthAndNormal) {
-  for_engines([](CandidateProcess& engine, const PlainContact& c) {
-    const Answer a = engine.answer(c.configuration);
-    ASSERT_EQ(a.status, TS_CONTACT) << a.reason;
-    EXPECT_NEAR(a.signed_distance, c.signed_distance, everyday(engine.candidate()));
-    EXPECT_LT((normal_of(a) - c.normal).norm(), everyday(engine.candidate()));
-    ASSERT_GE(a.point_count, 1);
-    double deepest = -1;
-    for (int i = 0; i < a.point_count; ++i) deepest = std::max(deepest, a.points[i].depth);
-    EXPECT_EQ(deepest, -a.signed_distance);
-  });
-}
-
-TEST(Adapters, TurnWithTheWorld) {
-  // Repeats the contacts in a rotated and shifted frame, to test every convention.
+TEST(Adapters, AgreeOnPlainContactsInDepthAndNormalInAnyFrame) {
+  // As they are, and in a rotated and shifted frame, to test every convention.
   const Quaternion turn = Quaternion(0.5, -0.1, 0.7, 0.3).normalized();
-  const Vec3 shift(0.3, -0.2, 0.5);
-  const auto moved = [&](const Pose& p) {
-    return Pose(turn * p.position() + shift, turn * p.orientation());
-  };
-  for_engines([&](CandidateProcess& engine, const PlainContact& c) {
-    const Configuration& k = c.configuration;
-    const Answer a = engine.answer({k.a, moved(k.pose_a), k.b, moved(k.pose_b)});
-    ASSERT_EQ(a.status, TS_CONTACT) << a.reason;
-    EXPECT_NEAR(a.signed_distance, c.signed_distance, everyday(engine.candidate()));
-    EXPECT_LT((normal_of(a) - turn * c.normal).norm(), everyday(engine.candidate()));
-  });
+  const Pose frames[] = {Pose(), Pose({0.3, -0.2, 0.5}, turn)};
+  for (const Pose& frame : frames) {
+    const Quaternion& turned = frame.orientation();
+    const auto moved = [&](const Pose& p) {
+      return Pose(turned * p.position() + frame.position(), turned * p.orientation());
+    };
+    for_engines([&](CandidateProcess& engine, const PlainContact& c) {
+      const Configuration& k = c.configuration;
+      const Answer a = engine.answer({k.a, moved(k.pose_a), k.b, moved(k.pose_b)});
+      ASSERT_EQ(a.status, TS_CONTACT) << a.reason;
+      EXPECT_NEAR(a.signed_distance, c.signed_distance, everyday(engine.candidate()));
+      EXPECT_LT((normal_of(a) - turned * c.normal).norm(), everyday(engine.candidate()));
+      ASSERT_GE(a.point_count, 1);
+      if (&frame != frames) return;  // turned, but for a bit
+      double deepest = -1;
+      for (int i = 0; i < a.point_count; ++i) deepest = std::max(deepest, a.points[i].depth);
+      EXPECT_EQ(deepest, -a.signed_distance);
+    });
+  }
 }
 
 TEST(Adapters, PutPointsNearTheContact) {
