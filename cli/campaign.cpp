@@ -131,9 +131,8 @@ void add_campaign(Program& program) {
   Command command =
       program.command("campaign", "Score any number of configurations, on many machines");
   const auto options = std::make_shared<CampaignArguments>(command);
-  command.text("--out", options->out, "Folder for the shard files and campaign.json")
-      .value("FOLDER");
-  command.text("--shard", options->shard_text,
+  command.text("--out", "FOLDER", options->out, "Folder for the shard files and campaign.json");
+  command.text("--shard", "TEXT", options->shard_text,
                "Only this part, as in 3/7; put together by --merge");
   command.flag("--resume", options->resume,
                "Go on where the folder's checkpoint ends, or begin where there is none");
@@ -141,10 +140,8 @@ void add_campaign(Program& program) {
   command.number("--checkpoint", options->interval, {1e-3, 1e9}, "Seconds between checkpoints")
       .group("");
   const Option merges =
-      command
-          .arguments("--merge", options->parts,
-                     "Put the parts of a campaign together: shard files, or folders with some")
-          .value("PATH");
+      command.arguments("--merge", "PATH", options->parts,
+                        "Put the parts of a campaign together: shard files, or folders with some");
   command.flag("--partial", options->partial, "Even if parts are missing");
   command.mode(merges, {"--partial"}, {"--out", "--details"});
   command.footer(

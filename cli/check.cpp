@@ -261,8 +261,7 @@ std::string goal_list() {
 void add_check(Program& program) {
   Command command = program.command("check", "Hold one candidate to laws; climb to its worst");
   const auto options = std::make_shared<CheckArguments>(command);
-  command.text("--candidate", options->candidate, "Its name, or a plug-in's file")
-      .value("CANDIDATE");
+  command.text("--candidate", "CANDIDATE", options->candidate, "Its name, or a plug-in's file");
   command
       .flag("--hostile", options->hostile,
             fmt::format("On the pose class hostile alone, {} configurations of each pair unless "
@@ -271,27 +270,23 @@ void add_check(Program& program) {
       .group("")
       .excludes(options->sample.class_option())
       .excludes(options->sample.group_option());
-  command.list("--law", options->laws, "Only these laws").value("LAW");
-  command
-      .text("--corpus", options->corpus,
-            "First replay the failures saved in this folder, or in this file of JSON Lines: "
-            "each must fail as it did")
-      .value("PATH");
-  command
-      .text("--known", options->known,
-            "Failures saved in this folder or file are expected: only new ones fail")
-      .value("PATH");
-  command.text("--save", options->save, "Save failures into this folder, one of each cause")
-      .value("FOLDER");
-  command.text("--junit", options->junit, "Write the result as JUnit XML").value("FILE");
+  command.list("--law", "LAW", options->laws, "Only these laws");
+  command.text("--corpus", "PATH", options->corpus,
+               "First replay the failures saved in this folder, or in this file of JSON Lines: "
+               "each must fail as it did");
+  command.text("--known", "PATH", options->known,
+               "Failures saved in this folder or file are expected: only new ones fail");
+  command.text("--save", "FOLDER", options->save,
+               "Save failures into this folder, one of each cause");
+  command.text("--junit", "FILE", options->junit, "Write the result as JUnit XML");
   command.flag("--json", options->json, "Print one JSON object instead of text");
   const Option search = command.flag(
       "--search", options->searches,
       fmt::format("Climb to its worst configurations instead, with {} evaluations for each pair "
                   "and goal unless --count says otherwise",
                   usual_evaluations));
-  command.list("--goal", options->goals, "Only these goals (default: distance,normal,points,hull)")
-      .value("GOAL");
+  command.list("--goal", "GOAL", options->goals,
+               "Only these goals (default: distance,normal,points,hull)");
   command.mode(search, {"--goal"},
                {"--candidate", "--save", "--json", "--pair", "--class", "--group", "--count",
                 "--seed", "--tolerance", "--threshold", "--workers"});

@@ -172,11 +172,10 @@ void add_choose(Program& program) {
   Command command = program.command("choose", "The cheapest contact models that a scene needs");
   const auto options = std::make_shared<ChooseArguments>(command);
   command
-      .text("scene", options->scene,
+      .text("scene", "FILE", options->scene,
             "A scene file (docs/scenes.md), or a robot or world (.urdf, .sdf, MJCF)")
-      .value("FILE")
       .required();
-  command.text("--out", options->out, "Folder for choose.json and choose.html").value("FOLDER");
+  command.text("--out", "FOLDER", options->out, "Folder for choose.json and choose.html");
   command.flag("--json", options->json, "Print choose.json instead of text");
   command.count("--seed", options->trials.seed, all_counts,
                 "Same seed, same disturbances or poses");
@@ -184,10 +183,9 @@ void add_choose(Program& program) {
       command.count("--disturbances", options->trials.disturbances, {0, 1000},
                     "Runs of a scene beside the one as it is written; needs must hold in all"),
       command
-          .text("--engine", options->engine,
+          .text("--engine", "ENGINE", options->engine,
                 "The best setting of this engine's own world instead: bullet, bullet-float, ode, "
                 "mujoco")
-          .value("ENGINE")
           .excludes(options->candidates.option())};
   for (const Option& option : options->robot.of_motion()) options->of_motions.push_back(option);
   const char* sampled = "Of a robot or world, at random poses";

@@ -238,10 +238,6 @@ Option& Option::group(const std::string& heading) {
   option_->group(heading);
   return *this;
 }
-Option& Option::value(const std::string& name) {
-  option_->type_name(name);
-  return *this;
-}
 Option& Option::default_text(const std::string& text) {
   option_->default_str(text);
   return *this;
@@ -249,27 +245,29 @@ Option& Option::default_text(const std::string& text) {
 std::string Option::name() const { return name_of(*option_); }
 bool Option::is_given() const { return option_->count() > 0; }
 
-Option Command::text(const std::string& name, std::string& variable,
+Option Command::text(const std::string& name, const std::string& value, std::string& variable,
                      const std::string& description) {
   // Empty means not given, and a shell's variable that is not set must not mean that.
   const auto read = [&variable, name](const std::string& text) {
     if (text.empty()) throw InvalidInput(name, in_quotes(text), "must be left out or have a value");
     variable = text;
   };
-  CLI::Option* option = app_->add_option_function<std::string>(name, read, description);
+  CLI::Option* option =
+      app_->add_option_function<std::string>(name, read, description)->type_name(value);
   if (!variable.empty()) option->default_str(variable);
   return Option(option);
 }
 
-Option Command::list(const std::string& name, std::vector<std::string>& variable,
-                     const std::string& description) {
-  return Option(
-      app_->add_option(name, variable, description)->delimiter(',')->allow_extra_args(false));
+Option Command::list(const std::string& name, const std::string& value,
+                     std::vector<std::string>& variable, const std::string& description) {
+  const Option option = arguments(name, value, variable, description);
+  option.option_->delimiter(',')->allow_extra_args(false);
+  return option;
 }
 
-Option Command::arguments(const std::string& name, std::vector<std::string>& variable,
-                          const std::string& description) {
-  return Option(app_->add_option(name, variable, description));
+Option Command::arguments(const std::string& name, const std::string& value,
+                          std::vector<std::string>& variable, const std::string& description) {
+  return Option(app_->add_option(name, variable, description)->type_name(value));
 }
 
 Option Command::flag(const std::string& name, bool& variable, const std::string& description) {

@@ -30,9 +30,6 @@ class Option {
   /// Puts it under a heading of its own in --help; without one --help does not show it, because
   /// only developers use it.
   Option& group(const std::string& heading);
-  /// What its value is called in --help, "PAIR"; completion offers what descriptions.cpp knows of
-  /// that name, and files otherwise.
-  Option& value(const std::string& name);
   /// Says in words what the default is.
   Option& default_text(const std::string& text);
   /// "--count"
@@ -46,17 +43,20 @@ class Option {
   CLI::Option* option_;
 };
 
-/// A subcommand. Names with leading dashes are options, others are arguments by position.
+/// A subcommand. Names with leading dashes are options, others are arguments by position. `value`
+/// is what --help calls the value, "PAIR"; completion offers what descriptions.cpp knows of that
+/// name, and files otherwise.
 class Command {
  public:
   /// Refused where it is empty.
-  Option text(const std::string& name, std::string& variable, const std::string& description);
+  Option text(const std::string& name, const std::string& value, std::string& variable,
+              const std::string& description);
   /// One argument, separated by commas.
-  Option list(const std::string& name, std::vector<std::string>& variable,
+  Option list(const std::string& name, const std::string& value, std::vector<std::string>& variable,
               const std::string& description);
   /// All that stands here.
-  Option arguments(const std::string& name, std::vector<std::string>& variable,
-                   const std::string& description);
+  Option arguments(const std::string& name, const std::string& value,
+                   std::vector<std::string>& variable, const std::string& description);
   Option flag(const std::string& name, bool& variable, const std::string& description);
   Option number(const std::string& name, double& variable, NumberRange range,
                 const std::string& description);

@@ -51,8 +51,8 @@ void add_compare(Program& program) {
   Command command =
       program.command("compare", "What is better, worse or slower than in another report");
   const auto options = std::make_shared<CompareArguments>();
-  command.text("OLD", options->before, "report.json to compare with").value("FILE").required();
-  command.text("NEW", options->after, "report.json that may be worse").value("FILE").required();
+  command.text("OLD", "FILE", options->before, "report.json to compare with").required();
+  command.text("NEW", "FILE", options->after, "report.json that may be worse").required();
   constexpr NumberRange factors{1, 1e300}, shares{0, 1};
   command.number(
       "--max-error-factor", options->limits.error_factor, factors,
@@ -63,15 +63,13 @@ void add_compare(Program& program) {
                  "grow, by the nearest ends of their spreads");
   command.number("--min-agree", options->limits.agreement, shares,
                  "Share of the configurations that agreed before that must agree still");
-  command.text("--baseline", options->limits.baseline, "Candidate that times are related to")
-      .value("CANDIDATE");
-  command
-      .list("--fail-on", options->fail_on,
-            "With time, exit code 1 also where something is slower; accuracy always counts")
-      .value("FAILURE");
+  command.text("--baseline", "CANDIDATE", options->limits.baseline,
+               "Candidate that times are related to");
+  command.list("--fail-on", "FAILURE", options->fail_on,
+               "With time, exit code 1 also where something is slower; accuracy always counts");
   command.flag("--json", options->json, "Print one JSON object with every change");
-  command.text("--html", options->html, "Write a page too: both Pareto fronts, all changes")
-      .value("FILE");
+  command.text("--html", "FILE", options->html,
+               "Write a page too: both Pareto fronts, all changes");
   command.footer(
       "Examples:\n"
       "  touchstone compare old/report.json out/report.json\n"

@@ -120,24 +120,18 @@ int run_export(const ExportArguments& options) {
 void add_export(Program& program) {
   Command command = program.command("export", "Write configurations with their truths");
   const auto options = std::make_shared<ExportArguments>(command);
-  command
-      .text("--out", options->out,
-            "File: .jsonl (JSON Lines), .csv or .npz (NumPy); - is standard output")
-      .value("FILE");
-  command.text("--format", options->format_name, "jsonl, csv or npz, whatever the file's name")
-      .value("FORMAT");
+  command.text("--out", "FILE", options->out,
+               "File: .jsonl (JSON Lines), .csv or .npz (NumPy); - is standard output");
+  command.text("--format", "FORMAT", options->format_name,
+               "jsonl, csv or npz, whatever the file's name");
   command.flag("--suite", options->suite,
                "touchstone-suite-1, as suite/ has it, by default as CSV");
-  command
-      .text("--suite-2", options->suite_2,
-            "Likewise a file of touchstone-suite-2: smoke, everyday or hard")
-      .value("NAME");
-  const Option as = command
-                        .text("--as", options->idiom,
-                              fmt::format("Write a file of tests for an engine's project: {}",
-                                          fmt::join(idioms(), ", ")))
-                        .value("IDIOM");
-  command.text("--engine", options->engine, "The engine, as for replay --emit").value("ENGINE");
+  command.text("--suite-2", "NAME", options->suite_2,
+               "Likewise a file of touchstone-suite-2: smoke, everyday or hard");
+  const Option as = command.text(
+      "--as", "IDIOM", options->idiom,
+      fmt::format("Write a file of tests for an engine's project: {}", fmt::join(idioms(), ", ")));
+  command.text("--engine", "ENGINE", options->engine, "The engine, as for replay --emit");
   command.count("--limit", options->limit, {1, 1000}, "At most so many tests");
   command.mode(as, {"--engine", "--limit"}, {"--pair", "--seed", "--out"});
   command.footer(

@@ -156,10 +156,9 @@ int run_list(const ListArguments& options) {
 void add_list(Program& program) {
   Command command = program.command("list", "List the contact routines, or the pose classes");
   const auto options = std::make_shared<ListArguments>();
-  command.text("what", options->what, "candidates, or classes: arrangements and modifiers")
-      .value("LIST")
+  command.text("what", "LIST", options->what, "candidates, or classes: arrangements and modifiers")
       .required();
-  command.text("pair", options->pair, "Classes of this pair alone, as cylinder-box").value("PAIR");
+  command.text("pair", "PAIR", options->pair, "Classes of this pair alone, as cylinder-box");
   command.footer(
       "Examples:\n"
       "  touchstone list candidates\n"

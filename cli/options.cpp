@@ -15,12 +15,10 @@
 namespace touchstone {
 
 CandidateOption::CandidateOption(Command& command, bool has_default)
-    : option_(command
-                  .list("--candidates", names_,
-                        fmt::format("Only these, separated by commas (default: {}); families by "
-                                    "several numbers, as in prism:8,16,32 or spheres:1..64",
-                                    has_default ? "all but variants" : "all"))
-                  .value("CANDIDATE")) {
+    : option_(command.list("--candidates", "CANDIDATE", names_,
+                           fmt::format("Only these, separated by commas (default: {}); families by "
+                                       "several numbers, as in prism:8,16,32 or spheres:1..64",
+                                       has_default ? "all but variants" : "all"))) {
   if (has_default) {
     command.flag("--all-candidates", asks_all_, "All, with the variants of engines and models")
         .excludes(option_);
@@ -103,18 +101,14 @@ std::string BarOption::command_line() const {
 
 SampleOption::SampleOption(Command& command, std::uint64_t count, std::uint64_t max_count)
     : count_(count),
-      pair_option_(
-          command.list("--pair", pairs_, "Only these pairs, as in cylinder-box").value("PAIR")),
-      class_option_(
-          command.list("--class", classes_, "Only these pose classes; see touchstone list classes")
-              .value("CLASS")),
+      pair_option_(command.list("--pair", "PAIR", pairs_, "Only these pairs, as in cylinder-box")),
+      class_option_(command.list("--class", "CLASS", classes_,
+                                 "Only these pose classes; see touchstone list classes")),
       count_option_(
           command.count("--count", count_, {1, max_count},
                         "Configurations of each pair and pose class; 1e6 is understood too")),
-      group_option_(command
-                        .list("--group", groups_,
-                              "Only everyday, degenerate, extreme or recorded pose classes")
-                        .value("GROUP")) {
+      group_option_(command.list("--group", "GROUP", groups_,
+                                 "Only everyday, degenerate, extreme or recorded pose classes")) {
   command.count("--seed", seed_, all_counts, "Same seed, same configurations");
 }
 
@@ -171,18 +165,16 @@ RobotOption::RobotOption(Command& command) : seconds_(RobotMotion().duration) {
   options_ = {
       command
           .list(
-              "--drive", drives_,
+              "--drive", "JOINT=RATE", drives_,
               "Turn or move joints at these rates, rad/s or m/s, as in left_wheel=5,right_wheel=5; "
               "a joint with =loose has no motor, all others hold")
-          .value("JOINT=RATE")
           .group(robots),
       command.number("--duration", seconds_, durations, "Simulated time, seconds").group(robots),
       command.flag("--fixed-base", has_fixed_base_, "Hold the root link where it is").group(robots),
       command
-          .list("--model-path", folders_,
+          .list("--model-path", "FOLDER", folders_,
                 "Folders to look for meshes and included models in, before those of SDF_PATH, "
                 "GZ_SIM_RESOURCE_PATH, ROS_PACKAGE_PATH and the file's own")
-          .value("FOLDER")
           .group(robots)};
 }
 

@@ -72,25 +72,19 @@ int run_replay(const ReplayArguments& options, bool emits) {
 void add_replay(Program& program) {
   Command command = program.command("replay", "Show one configuration again: truth and answers");
   const auto options = std::make_shared<ReplayArguments>(command);
-  command.text("input", options->input, given_help).value("IDENTITY").required();
-  command.text("--id", options->id, "The configuration of this id, of a file with several lines")
-      .value("ID");
+  command.text("input", "IDENTITY", options->input, given_help).required();
+  command.text("--id", "ID", options->id,
+               "The configuration of this id, of a file with several lines");
   command.flag("--json", options->json, "Print one JSON object");
   const Option emit =
-      command
-          .text("--emit", options->engine,
-                fmt::format("Write a program that asks this engine alone: {}; or a candidate's "
-                            "plug-in or command",
-                            fmt::join(reproducer_engines(), ", ")))
-          .value("CANDIDATE");
-  command
-      .text("--language", options->language,
-            "Language of that program, where there are several: c++, javascript, python")
-      .value("LANGUAGE");
-  command
-      .text("--html", options->html,
-            "Write a page too: both bodies in 3-D, a slice, and all numbers")
-      .value("FILE");
+      command.text("--emit", "CANDIDATE", options->engine,
+                   fmt::format("Write a program that asks this engine alone: {}; or a candidate's "
+                               "plug-in or command",
+                               fmt::join(reproducer_engines(), ", ")));
+  command.text("--language", "LANGUAGE", options->language,
+               "Language of that program, where there are several: c++, javascript, python");
+  command.text("--html", "FILE", options->html,
+               "Write a page too: both bodies in 3-D, a slice, and all numbers");
   const Option certify =
       command.flag("--certify", options->certifies,
                    "Print a proof of the signed distance, a file that others can check");

@@ -229,24 +229,16 @@ int run_report(const ReportArguments& options) {
 void add_report(Program& program) {
   Command command = program.command("report", "Score all candidates; write out/report.html");
   const auto options = std::make_shared<ReportArguments>(command);
-  command
-      .list("--only", options->only,
-            "Only these parts of scores (always made), timing, casts, stability, experiments, "
-            "engines")
-      .value("REPORT-PART");
-  command.text("--out", options->out, "Folder for report.json and report.html").value("FOLDER");
-  command
-      .text("--configurations", options->configurations,
-            "Your own, in place of drawn ones: a file as for solve, with an id a line")
-      .value("FILE");
-  command
-      .text("--figures", options->figures,
-            "Folder for figures as SVG, PNG and CSV, made by gnuplot")
-      .value("FOLDER");
-  command
-      .text("--table", options->table,
-            "Also a table of candidates by pairs for your own page, as .md or .html")
-      .value("FILE");
+  command.list("--only", "REPORT-PART", options->only,
+               "Only these parts of scores (always made), timing, casts, stability, experiments, "
+               "engines");
+  command.text("--out", "FOLDER", options->out, "Folder for report.json and report.html");
+  command.text("--configurations", "FILE", options->configurations,
+               "Your own, in place of drawn ones: a file as for solve, with an id a line");
+  command.text("--figures", "FOLDER", options->figures,
+               "Folder for figures as SVG, PNG and CSV, made by gnuplot");
+  command.text("--table", "FILE", options->table,
+               "Also a table of candidates by pairs for your own page, as .md or .html");
   command.flag("--details", options->has_details, details_help);
   command.footer(
       "Examples:\n"

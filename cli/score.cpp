@@ -117,16 +117,15 @@ int run_score(const ScoreArguments& options) {
 void add_score(Program& program) {
   Command command = program.command("score", "Score answers that were computed elsewhere");
   const auto options = std::make_shared<ScoreArguments>(command);
-  command.text("file", options->file, "JSON Lines; - is standard input").value("FILE").required();
-  command
-      .text("--configurations", options->configurations,
-            "What the ids mean that are no identities: a file as for solve")
-      .value("FILE");
+  command.text("file", "FILE", options->file, "JSON Lines; - is standard input").required();
+  command.text("--configurations", "FILE", options->configurations,
+               "What the ids mean that are no identities: a file as for solve");
   command.flag("--suite", options->suite, "All of touchstone-suite-1 has to be answered");
-  command.text("--name", options->name, "Whose answers these are, unless the first line says it");
-  command.text("--of-version", options->version, "Its version").group("");
-  command.text("--settings", options->settings, "How it was called");
-  command.text("--out", options->out, "Folder for report.json and report.html").value("FOLDER");
+  command.text("--name", "TEXT", options->name,
+               "Whose answers these are, unless the first line says it");
+  command.text("--of-version", "TEXT", options->version, "Its version").group("");
+  command.text("--settings", "TEXT", options->settings, "How it was called");
+  command.text("--out", "FOLDER", options->out, "Folder for report.json and report.html");
   command.flag("--details", options->has_details, details_help);
   command.footer(
       "Examples:\n"

@@ -236,46 +236,34 @@ std::string experiment_list() {
 void add_simulate(Program& program) {
   Command command = program.command("simulate", "Rigid-body experiments with an answer on paper");
   const auto options = std::make_shared<SimulateArguments>(command);
-  command
-      .arguments(
-          "experiments", options->names,
-          "Only these experiments; or scene files, robots and worlds (.json, .urdf, .sdf, MJCF)")
-      .value("EXPERIMENT");
+  command.arguments(
+      "experiments", "EXPERIMENT", options->names,
+      "Only these experiments; or scene files, robots and worlds (.json, .urdf, .sdf, MJCF)");
   const Option engine =
-      command
-          .list("--engine", options->engines,
-                "Run in these engines' own worlds, with their contacts and with ours: bullet, "
-                "bullet-float, ode, mujoco (docs/motion.md)")
-          .value("ENGINE");
+      command.list("--engine", "ENGINE", options->engines,
+                   "Run in these engines' own worlds, with their contacts and with ours: bullet, "
+                   "bullet-float, ode, mujoco (docs/motion.md)");
   const Option step = command.numbers(
       "--step", options->steps, {1e-5, 0.1},
       "Steps of time, seconds, separated by commas (default: 1/60, 1/240, 1/960; with "
       "--engine 1/240)");
   const Option out =
-      command
-          .text("--out", options->out,
-                "Folder for experiments.json; with --engine for engines.json, engines.html")
-          .value("FOLDER");
+      command.text("--out", "FOLDER", options->out,
+                   "Folder for experiments.json; with --engine for engines.json, engines.html");
   const Option json = command.flag("--json", options->json, "Print one JSON object");
   const Option record =
-      command
-          .text("--record", options->record,
-                "File for configurations near contact that occur in scenes with exact contacts "
-                "(docs/scenes.md)")
-          .value("FILE");
+      command.text("--record", "FILE", options->record,
+                   "File for configurations near contact that occur in scenes with exact contacts "
+                   "(docs/scenes.md)");
   command.count("--count", options->recording.count, {1, 1000000},
                 "Configurations of each scene and pair of shapes");
-  const Option povray = command
-                            .text("--povray", options->povray,
-                                  "Folder for the motion in a scene as frames for POV-Ray: "
-                                  "scene.ini, scene.pov and a file for each")
-                            .value("FOLDER");
+  const Option povray = command.text("--povray", "FOLDER", options->povray,
+                                     "Folder for the motion in a scene as frames for POV-Ray: "
+                                     "scene.ini, scene.pov and a file for each");
   command.number("--every", options->every, {1e-6, 1e6}, "Seconds between frames");
-  command
-      .list("--contacts", options->contacts,
-            "The candidate that contacts come from; or candidates of kinds of pairs, as in "
-            "choose's commands, with exact contacts of all others")
-      .value("CANDIDATE");
+  command.list("--contacts", "CANDIDATE", options->contacts,
+               "The candidate that contacts come from; or candidates of kinds of pairs, as in "
+               "choose's commands, with exact contacts of all others");
   const Option disturbance =
       command.count("--disturbance", options->disturbance, {0, 5000},
                     "The scene under this one of choose's disturbances; 0: as it is written");

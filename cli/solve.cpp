@@ -39,7 +39,7 @@ void add_solve(Program& program) {
   Command command =
       program.command("solve", "Truth, answers and scores for your own configurations");
   const auto options = std::make_shared<SolveArguments>(command);
-  command.text("file", options->file, "JSON Lines; - is standard input").value("FILE");
+  command.text("file", "FILE", options->file, "JSON Lines; - is standard input");
   command.number("--width", options->width, {1e-300, 1e30},
                  "Width of the truth, relative to the larger size");
   command.flag("--audit", options->audit, "Let the second oracle check every truth");

@@ -84,14 +84,10 @@ void add_stability(Program& program) {
   Command command =
       program.command("stability", "How answers change at tiny steps and along motions");
   const auto options = std::make_shared<StabilityArguments>(command);
-  command
-      .text("input", options->input,
-            std::string("Small steps around this configuration alone: ") + given_help)
-      .value("IDENTITY");
-  command.list("--part", options->parts, "Only these of amplification, maps, sequences")
-      .value("PART");
-  command.text("--out", options->out, "Folder for stability.json and stability.html")
-      .value("FOLDER");
+  command.text("input", "IDENTITY", options->input,
+               std::string("Small steps around this configuration alone: ") + given_help);
+  command.list("--part", "PART", options->parts, "Only these of amplification, maps, sequences");
+  command.text("--out", "FOLDER", options->out, "Folder for stability.json and stability.html");
   command.flag("--json", options->json, "Print the result as one JSON object");
   command.footer(
       "Small steps start in exactly degenerate pose classes, or in those of --class.\n"
