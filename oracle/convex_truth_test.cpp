@@ -159,70 +159,39 @@ Shape triangle() { return hull({{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}); }
 
 const Cylinder can(1, 1);
 
+/// Against a body in the world's frame.
+Configuration with_can(const Vec3& place, const Quaternion& turn = upright,
+                       const Shape& b = triangle(), const Cylinder& a = can) {
+  return {a, Pose(place, turn), b, Pose()};
+}
+
 std::vector<OnPaper> on_paper() {
   return {
-      {"ACapOverATriangle",
-       {can, Pose({1, 1, 3}, upright), triangle(), Pose()},
-       2,
-       {0, 0, 1},
-       {0, 1, 2}},
-      {"ACapInATriangle",
-       {can, Pose({1, 1, 0.75}, upright), triangle(), Pose()},
-       {-1, 4},
-       {0, 0, 1},
-       {0, 1, 2}},
-      {"ACapInATriangleFromBelow",
-       {can, Pose({1, 1, -0.75}, upright), triangle(), Pose()},
-       {-1, 4},
-       {0, 0, -1},
-       {0, 1, 2}},
-      {"ACapTouchesATriangle",
-       {can, Pose({1, 1, 1}, upright), triangle(), Pose()},
-       0,
-       {0, 0, 1},
-       {0, 1, 2}},
+      {"ACapOverATriangle", with_can({1, 1, 3}), 2, {0, 0, 1}, {0, 1, 2}},
+      {"ACapInATriangle", with_can({1, 1, 0.75}), {-1, 4}, {0, 0, 1}, {0, 1, 2}},
+      {"ACapInATriangleFromBelow", with_can({1, 1, -0.75}), {-1, 4}, {0, 0, -1}, {0, 1, 2}},
+      {"ACapTouchesATriangle", with_can({1, 1, 1}), 0, {0, 0, 1}, {0, 1, 2}},
       // The cylinder lies along x, one below the triangle.
-      {"ASideOnATriangle",
-       {can, Pose({1, 1, 1.5}, along_x), triangle(), Pose()},
-       {1, 2},
-       {0, 0, 1},
-       {0, 1, 2}},
+      {"ASideOnATriangle", with_can({1, 1, 1.5}, along_x), {1, 2}, {0, 0, 1}, {0, 1, 2}},
       // The leg along x is 3 from the axis in y.
-      {"ASideBesideAnEdge",
-       {can, Pose({2, -3, 0}, along_x), triangle(), Pose()},
-       2,
-       {0, -1, 0},
-       {0, 1}},
-      {"ASideOverAnEdge",
-       {can, Pose({2, -3, 4}, along_x), triangle(), Pose()},
-       4,
-       {0, -0.6, 0.8},
-       {0, 1}},
+      {"ASideBesideAnEdge", with_can({2, -3, 0}, along_x), 2, {0, -1, 0}, {0, 1}},
+      {"ASideOverAnEdge", with_can({2, -3, 4}, along_x), 4, {0, -0.6, 0.8}, {0, 1}},
       {"ASideTouchesAnEdge",
-       {Cylinder(5, 1), Pose({2, -3, 4}, along_x), triangle(), Pose()},
+       with_can({2, -3, 4}, along_x, triangle(), Cylinder(5, 1)),
        0,
        {0, -0.6, 0.8},
        {0, 1}},
-      {"ASideBesideACorner",
-       {can, Pose({7, -4, 0}, upright), triangle(), Pose()},
-       4,
-       {0.6, -0.8, 0},
-       {1}},
+      {"ASideBesideACorner", with_can({7, -4, 0}), 4, {0.6, -0.8, 0}, {1}},
       // From the corner at (4, 0, 0) to the rim's point (8, 0, 3) of a can whose axis is at x = 9.
-      {"ARimOverACorner",
-       {can, Pose({9, 0, 4}, upright), triangle(), Pose()},
-       5,
-       {0.8, 0, 0.6},
-       {1}},
+      {"ARimOverACorner", with_can({9, 0, 4}), 5, {0.8, 0, 0.6}, {1}},
       // Edge-on: the plane of the triangle holds the axis.
       {"ATriangleEdgeOnASide",
-       {can, Pose({-2, 2, 0}, Quaternion(1, -1, 0, 0)), triangle(), Pose()},
+       with_can({-2, 2, 0}, Quaternion(1, -1, 0, 0)),
        1,
        {-1, 0, 0},
        {0, 2}},
       {"ACapOnATetrahedronsCorner",
-       {can, Pose({0.25, 0, 1.5}, upright),
-        hull({{0, 0, 0}, {1, 0, -2}, {-1, 1, -2}, {-1, -1, -2}}), Pose()},
+       with_can({0.25, 0, 1.5}, upright, hull({{0, 0, 0}, {1, 0, -2}, {-1, 1, -2}, {-1, -1, -2}})),
        {1, 2},
        {0, 0, 1},
        {0}},
@@ -249,10 +218,9 @@ TEST(ConvexTruth, IsWhatPaperSays) {
 
 TEST(ConvexTruth, KnowsTheAlignmentToTheCylinder) {
   const auto to_a = [](const Configuration& c) { return truth(c).normals.at(0).to_a; };
-  EXPECT_EQ(to_a({can, Pose({1, 1, 3}, upright), triangle(), Pose()}), Alignment::parallel);
-  EXPECT_EQ(to_a({can, Pose({1, 1, 3}, along_x), triangle(), Pose()}), Alignment::perpendicular);
-  EXPECT_EQ(to_a({can, Pose({1, 1, 3}, Quaternion(4, 0, 3, 0)), triangle(), Pose()}),
-            Alignment::oblique);
+  EXPECT_EQ(to_a(with_can({1, 1, 3})), Alignment::parallel);
+  EXPECT_EQ(to_a(with_can({1, 1, 3}, along_x)), Alignment::perpendicular);
+  EXPECT_EQ(to_a(with_can({1, 1, 3}, Quaternion(4, 0, 3, 0))), Alignment::oblique);
 }
 
 // On the axis, this corner of the polygon has only the faces' normals across the axis: the polygon
@@ -355,7 +323,7 @@ TEST(ConvexTruth, HoldsWhereFacesAreNearlyOne) {
     for (const Quaternion& turn : {upright, along_x, Quaternion(4, 0, 3, 0),
                                    Quaternion(1, bulge, 0, 0), Quaternion(1, 0.7, 0.1, bulge)}) {
       for (const double height : {0.5, 1.0, 1.5}) {
-        expect_unbeaten({can, Pose({0.25, 0.125, height}, turn), roof, Pose()}, random);
+        expect_unbeaten(with_can({0.25, 0.125, height}, turn, roof), random);
       }
     }
   }
@@ -378,7 +346,7 @@ TEST(ConvexTruth, OfAPrismOfFourHundredSides) {
   for (const Quaternion& turn :
        {upright, along_x, Quaternion(4, 0, 3, 0), Quaternion(1, 2, 3, 4)}) {
     for (const Vec3& place : {Vec3(1.5, 0.75, 0.5), Vec3(0.5, 0, 1.75), Vec3(3, 2, 2)}) {
-      expect_unbeaten({can, Pose(place, turn), b, Pose()}, random);
+      expect_unbeaten(with_can(place, turn, b), random);
     }
   }
   // All sides of a coaxial one tie, to within the rounding of its vertices.
@@ -407,12 +375,12 @@ TEST(ConvexTruth, OfTheSameSolidInTinyAndHugeUnits) {
 TEST(ConvexTruth, OfWhatRoundingWouldMakeALineIsAsSharp) {
   // A triangle that is thinner than 2^-192 of its length, and one that is so far from its origin.
   const Shape thin = hull({{0, 0, 0}, {4, 0, 0}, {2, 1e-300, 0}});
-  const Truth t = truth({can, Pose({2, 0, 3}, upright), thin, Pose()});
+  const Truth t = truth(with_can({2, 0, 3}, upright, thin));
   EXPECT_LE(t.signed_distance.lo, 2);
   EXPECT_GE(t.signed_distance.hi, 2);
   EXPECT_LT(t.signed_distance.width(), 1e-29);
   const Shape far = hull({{0x1p60, 0, 0}, {0x1p60, 4, 0}, {0x1p60, 0, 4}});
-  const Truth u = truth({can, Pose({0x1p60, 1, 1}, along_x), far, Pose()});
+  const Truth u = truth(with_can({0x1p60, 1, 1}, along_x, far));
   EXPECT_LE(u.signed_distance.lo, -1);
   EXPECT_GE(u.signed_distance.hi, -1);
 }
@@ -421,7 +389,7 @@ TEST(ConvexTruth, NamesTheVerticesAsGivenWhereRoundingMergesSome) {
   const Convex body =
       convex_hull({{-1e-300, -2e-300, 0}, {-2e-300, -1e-300, 0}, {4, 0, 0}, {0, 4, 0}});
   ASSERT_EQ(body.vertices().size(), 4u);
-  const Configuration c{can, Pose({1, 1, 3}, upright), body, Pose()};
+  const Configuration c = with_can({1, 1, 3}, upright, body);
   EXPECT_EQ(std::get<Convex>(rounded_configuration(c).configuration.b).vertices().size(), 3u);
   const std::vector<int> one_of_the_merged{0, 2, 3};
   EXPECT_EQ(truth(c).normals.at(0).support_b, one_of_the_merged);
@@ -447,7 +415,7 @@ TEST(ConvexTruth, OfABodyWithFacesToWithinRoundingIsThatOfItsVertices) {
   std::vector<Vec3> points = corners_of_box({1, 1, 1});
   points[7].z() = std::nextafter(1.0, 2.0);
   const auto distance = [](const Shape& b) {
-    return truth({can, Pose({0, 0, 2.5}, Quaternion(4, 0, 3, 0)), b, Pose()}).signed_distance;
+    return truth(with_can({0, 0, 2.5}, Quaternion(4, 0, 3, 0), b)).signed_distance;
   };
   const Enclosure is = distance(Convex(points, faces)), hull_is = distance(convex_hull(points));
   EXPECT_EQ(is.lo, hull_is.lo);
@@ -482,7 +450,7 @@ TEST(ConvexTruth, ErrorBoundsWhatRoundingChanges) {
 }
 
 TEST(ConvexTruth, GapsAndRegretsAreThoseOfTheHull) {
-  const Configuration c{can, Pose({1, 1, 3}, upright), triangle(), Pose()};
+  const Configuration c = with_can({1, 1, 3});
   // Along (−3, 0, 4)/5: d·n − h·4/5 − r·3/5 − max v·n, with 0 for the leg along y.
   const Enclosure g = certified_gap(c, {-3, 0, 4});
   EXPECT_LE(g.lo, mpq_class(9, 5) - mpq_class(7, 5));
