@@ -180,18 +180,21 @@ def change_configuration(value, rng):
     at[last] = rng.choice((y.hex(), y.hex(), repr(y), y, f"{y:.5g}"))
 
 
+def with_numbers(value, other):
+    """A configuration with `other` of each of its numbers in their place."""
+    if isinstance(value, dict):
+        return {name: with_numbers(x, other) for name, x in value.items()}
+    if isinstance(value, list):
+        return [with_numbers(x, other) for x in value]
+    return value if value in checker.SHAPES else other(value)
+
+
 def respell_configuration(value, rng):
     """The same doubles in other words."""
     def respelled(x):
-        if isinstance(x, dict):
-            return {name: respelled(y) for name, y in x.items()}
-        if isinstance(x, list):
-            return [respelled(y) for y in x]
-        if x in checker.SHAPES:
-            return x
         y = float.fromhex(x)
         return rng.choice((x, y.hex(), repr(y), y, x.upper(), f"{y:.40g}"))
-    value["configuration"] = respelled(value["configuration"])
+    value["configuration"] = with_numbers(value["configuration"], respelled)
 
 
 def exchange_bodies(value, rng):
@@ -301,17 +304,11 @@ def another_proof(value, rng, others):
 def exact_form(configuration):
     """A configuration's numbers as fractions; a pose that is missing is the identity."""
     def exact(x):
-        if isinstance(x, dict):
-            return {name: exact(y) for name, y in x.items()}
-        if isinstance(x, list):
-            return [exact(y) for y in x]
-        if x in checker.SHAPES:
-            return x
         return str(Fraction(float.fromhex(x) if "x" in str(x).lower() else float(x)))
 
     poses = {name: {"position": [0] * 3, "orientation": [1, 0, 0, 0], **configuration.get(name, {})}
              for name in ("pose_a", "pose_b")}
-    return exact({**configuration, **poses})
+    return with_numbers({**configuration, **poses}, exact)
 
 
 def repair(value):
