@@ -40,6 +40,27 @@ const char* const stands = R"({"need": "stands", "body": "can", "degrees": 2})";
 const char* const elsewhere =
     R"({"need": "stays-in", "body": "can", "lower": [5, 5, 5], "upper": [6, 6, 6]})";
 
+TEST(LongStep, IsSaidWhereAFastBodyWouldPassAThinOne) {
+  SceneFile file = can_with(stands);
+  Scene& scene = file.scene;
+  scene.gravity = Vec3::Zero();
+  scene.duration = 0.1;
+  scene.bodies[0] = {.name = "plate", .shape = Box({0.01, 1, 1}), .fixed = true};
+  scene.bodies[1].pose = Pose(Vec3(-0.42, 0, 0));
+  const auto text_at = [&](double speed) {
+    scene.bodies[1].velocity = Vec3(speed, 0, 0);
+    Processes processes({});
+    CandidateModel exact(processes.of(find_candidate("reference")));
+    const Trajectory run = run_scene(scene, exact);
+    return long_step_text({file, run, PairKinds(scene, run), {}, {}});
+  };
+  // From the front of the can at the plate to its back behind it: 0.2 m + 0.02 m, at 10 m/s.
+  EXPECT_EQ(text_at(10),
+            "At 0.03 s can would be through plate in 0.022 s: a longer step may miss it.");
+  EXPECT_EQ(text_at(-10), "") << "it flies away";
+  EXPECT_EQ(text_at(0), "");
+}
+
 TEST(ChoicePage, HoldsItsDataAndLoadsNothing) {
   const Choice choice = choice_of(stands);
   const std::string page = choice_page(choice_json(choice, "touchstone choose can.json", "out"),

@@ -5,11 +5,13 @@
 #include <functional>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <vector>
 
 #include "properties/files/given_text.hpp"
 #include "reports/choice/choice.hpp"
 #include "reports/terminal.hpp"
+#include "simulation/scenes/passing.hpp"
 
 namespace touchstone {
 
@@ -112,9 +114,20 @@ std::vector<const SceneRun*> uniform_runs(const Choice& choice, bool are_models)
   return result;
 }
 
-}  // namespace
+/// Of an impact that a step could miss: "At 0.42 s ball would be through wall in 0.013 s: a
+/// longer step may miss it."
+std::string passing_text(const Choice& choice) {
+  const Scene& scene = choice.file.scene;
+  const std::optional<Passing> passing = shortest_passing(scene, choice.exact_run);
+  constexpr double longest_step = 0.1;  // s, of anyone
+  if (!passing || passing->seconds > longest_step) return "";
+  return fmt::format("At {:.2f} s {} would be through {} in {:.2g} s: a longer step may miss it.",
+                     passing->time, scene.bodies[passing->a].name, scene.bodies[passing->b].name,
+                     passing->seconds);
+}
 
-std::string long_step_text(const Choice& choice) {
+/// As long_step_text has it of exact contacts that fail.
+std::string late_text(const Choice& choice) {
   if (!choice.impossible) return "";
   const Scene& scene = choice.file.scene;
   const auto& frames = choice.exact_run.frames;
@@ -143,6 +156,13 @@ std::string long_step_text(const Choice& choice) {
       "In a step of {:.2g} s {} may move by {:.2g} m, {:.2g} of its smallest width, before its "
       "contacts are found again: a shorter step may do.",
       scene.step, name, way, share);
+}
+
+}  // namespace
+
+std::string long_step_text(const Choice& choice) {
+  const std::string passing = passing_text(choice), late = late_text(choice);
+  return passing + (passing.empty() || late.empty() ? "" : " ") + late;
 }
 
 std::string cheaper_routines(const Choice& choice) {
@@ -391,11 +411,9 @@ std::string choice_text(const Choice& choice, const std::string& folder, std::si
     lines += text + '\n';
   }
   lines += needs_of(choice, answer);
-  if (choice.impossible) {
-    lines += "  " + render_command(choice, answer) + '\n';
-    if (const auto text = long_step_text(choice); !text.empty()) lines += text + '\n';
-    return Terminal{columns}.folded(lines);
-  }
+  if (choice.impossible) lines += "  " + render_command(choice, answer) + '\n';
+  if (const auto text = long_step_text(choice); !text.empty()) lines += text + '\n';
+  if (choice.impossible) return Terminal{columns}.folded(lines);
   return Terminal{columns}.folded(lines + times_of(choice) + '\n' + kinds_of(choice, folder) +
                                   candidates_tables(choice, columns));
 }

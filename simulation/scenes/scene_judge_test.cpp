@@ -7,6 +7,7 @@
 
 #include "candidates/candidates.hpp"
 #include "reference/invalid_input.hpp"
+#include "simulation/scenes/passing.hpp"
 #include "simulation/scenes/trajectory.hpp"
 
 namespace touchstone {
@@ -153,6 +154,36 @@ TEST(MotionTable, TellsMicrometresApart) {
 
 TEST(MotionTable, SaysThatNothingMoves) {
   EXPECT_EQ(table_of(Vec3(0, 0, 0), true), "  Nothing moves: all is fixed.\n");
+}
+
+/// A can of 0.1 m radius that flies along x at 10 m/s, on its side, and is stopped by a plate 2 cm
+/// thick, which it first overlaps in frame 1.
+Trajectory shot_at(const Scene& scene) {
+  Trajectory run;
+  run.step = 0.01;
+  for (const double x : {-0.15, -0.05}) {
+    run.frames.push_back({{scene.bodies[0].pose, Vec3::Zero(), Vec3::Zero()},
+                          {Pose(Vec3(x, 0, 0)), Vec3(10, 0, 0), Vec3::Zero()}});
+  }
+  run.answers = {{0, 1, 0, -0.04, TS_NONE, 0, {}, 0}, {1, 1, 0, 0.06, TS_CONTACT, -0.06, {}, 1}};
+  return run;
+}
+
+TEST(ShortestPassing, IsAsLongAsBothBodiesOverlapOnAStraightWay) {
+  Scene scene;
+  scene.bodies = {{.name = "plate", .shape = Box({0.01, 1, 1}), .fixed = true},
+                  {.name = "can", .shape = Cylinder(0.1, 0.2)}};
+  const auto passing = shortest_passing(scene, shot_at(scene));
+  ASSERT_TRUE(passing);
+  // From the can's front at the plate to its back behind it: (0.2 m + 0.02 m) / 10 m/s.
+  EXPECT_NEAR(passing->seconds, 0.022, 1e-15);
+  EXPECT_EQ(passing->time, 0);
+  scene.bodies[0].shape = Plane(Vec3(-1, 0, 0), 0);
+  EXPECT_FALSE(shortest_passing(scene, shot_at(scene))) << "a half-space has no other side";
+  scene.bodies[0].shape = Box({0.01, 1, 1});
+  Trajectory resting = shot_at(scene);
+  resting.answers[0].depth = 0.01;
+  EXPECT_FALSE(shortest_passing(scene, resting)) << "in contact from the start";
 }
 
 TEST(ShapeText, TellsHullsApart) {
