@@ -429,7 +429,8 @@ std::string idiom_file(const IdiomRequest& request) {
                       indented(texts["sentences"], "\t"), fill_template(asking, of_case, texts));
       continue;
     }
-    texts["place"] = fmt::format("{} {} 0", square % in_row * side, square / in_row * side);
+    const int column = square % in_row, row = square / in_row;
+    texts["place"] = fmt::format("{} {} 0", column * side, row * side);
     ++square;
     if (has_program(idiom.language) && texts["shape_b"] != shape) {
       shape = texts["shape_b"];

@@ -2,6 +2,7 @@
 // file expects: mjcf_reader FILE. With RIGHT in the environment our contacts stand in MuJoCo's
 // place.
 #include <algorithm>
+#include <cstddef>
 #include <cstdio>
 #include <cstdlib>
 #include <mujoco/mujoco.h>
@@ -28,7 +29,7 @@ std::string text(const mjModel* model, const std::string& name) {
 }
 
 Shape shape_of(const mjModel* model, int geom) {
-  const mjtNum* const size = model->geom_size + 3 * geom;
+  const mjtNum* const size = model->geom_size + std::ptrdiff_t{3} * geom;
   switch (model->geom_type[geom]) {
     case mjGEOM_PLANE:
       return mujoco::detail::shape_of<Plane>(size);
