@@ -14,6 +14,7 @@
 #include "reference/invalid_input.hpp"
 #include "reports/engine_table.hpp"
 #include "reports/figures/figures.hpp"
+#include "reports/history.hpp"
 #include "reports/make_report.hpp"
 #include "reports/replay.hpp"
 #include "reports/report_json.hpp"
@@ -55,7 +56,7 @@ struct ReportArguments {
   CampaignOption scored;
   WorkersOption workers;
   std::vector<std::string> only;
-  std::string out = "out", figures, configurations, table;
+  std::string out = "out", figures, configurations, table, history;
   bool has_details = false;
 
   /// The names of the parts to make: scores always. Those that are not of single pose classes are
@@ -70,7 +71,7 @@ struct ReportArguments {
     chosen.insert("scores");
     if (!only.empty()) return chosen;
     chosen.insert("timing");
-    if (scored.sample.is_narrowed() || !configurations.empty()) return chosen;
+    if (scored.sample.is_narrowed() || !configurations.empty() || !history.empty()) return chosen;
     for (const Part& part : parts()) chosen.insert(part.name);
     return chosen;
   }
@@ -103,9 +104,28 @@ struct ReportArguments {
     for (const auto& [pair, of_pair] : c.own) c.pairs.push_back(pair);
   }
 
+  /// Releases are compared on everyday poses, if no others are chosen.
+  void keep_to_releases(Campaign& c) const {
+    if (!configurations.empty()) {
+      throw InvalidInput("--history", '"' + history + '"', "leaves no choice of --configurations");
+    }
+    const auto is_release = [&](const Candidate* candidate) {
+      return candidate->name.starts_with(history + '@');
+    };
+    if (std::ranges::count_if(c.candidates, is_release) < 2) {
+      throw InvalidInput(
+          "--history", '"' + history + '"',
+          fmt::format("must have two releases in --candidates, as {0}@1.0,{0}@1.1; without "
+                      "--candidates ./touchstone takes those of an engine from npm",
+                      history));
+    }
+    if (!scored.sample.is_narrowed()) c.groups = {Group::everyday};
+  }
+
   Campaign campaign() const {
     Campaign c = scored.get();
     if (c.classes.empty()) c.everyday_times = everyday_times;
+    if (!history.empty()) keep_to_releases(c);
     c.workers = workers.get();
     if (!configurations.empty()) {
       take_own(c);
@@ -130,7 +150,8 @@ struct ReportArguments {
                                : " --configurations " + shell_quoted(configurations) +
                                      scored.candidates.command_line() + scored.bar.command_line();
     return program_name() + " report" + scored_ones +
-           (only.empty() ? "" : fmt::format(" --only {}", fmt::join(only, ",")));
+           (only.empty() ? "" : fmt::format(" --only {}", fmt::join(only, ","))) +
+           (history.empty() ? "" : " --history " + shell_quoted(history));
   }
 };
 
@@ -200,9 +221,13 @@ int run_report(const ReportArguments& options) {
   report.wall_seconds +=
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   report.partial = report.partial || interrupted();
+  if (!options.history.empty()) {
+    report.history = History{options.history, release_steps(report, options.history)};
+  }
   const Terminal terminal = standard_output();
-  std::string text =
-      options.has_details ? terminal_details(report, terminal) : terminal_table(report, terminal);
+  std::string text = report.history        ? history_text(report, terminal)
+                     : options.has_details ? terminal_details(report, terminal)
+                                           : terminal_table(report, terminal);
   if (options.has_details && report.engines) {
     text += '\n' + engines_summary(*report.engines, terminal);
   }
@@ -212,11 +237,15 @@ int run_report(const ReportArguments& options) {
   write_then_print(
       [&] {
         write_report(report, folder);
+        if (report.history) {
+          write_file(std::filesystem::path(folder) / "history.html", history_page(report), "--out");
+        }
         if (options.table.empty()) return;
         write_file(options.table, engine_table(report, is_html), "--table");
       },
       text);
-  print(fmt::format("Report: {0}/report.html, {0}/report.json\n", folder));
+  print(fmt::format("Report: {0}/report.html, {0}/report.json{1}\n", folder,
+                    report.history ? fmt::format(", {}/history.html", folder) : ""));
   if (!figures_folder.empty()) {
     write_figures(report, figures_folder);
     print(fmt::format("Figures: {}\n", figures_folder));
@@ -239,6 +268,8 @@ void add_report(Program& program) {
                "Folder for figures as SVG, PNG and CSV, made by gnuplot");
   command.text("--table", "FILE", options->table,
                "Also a table of candidates by pairs for your own page, as .md or .html");
+  command.text("--history", "CANDIDATE", options->history,
+               "What the releases of an engine from npm changed in everyday poses: history.html");
   command.flag("--details", options->has_details, details_help);
   command.footer(
       "Examples:\n"

@@ -165,6 +165,18 @@ struct DrakeProtocol {
   std::vector<Result> results;
 };
 
+/// A class of which the answers of an engine's release are clearly better or worse than those of
+/// the release before (history.hpp).
+struct ReleaseStep {
+  std::string pair, pose_class;
+  std::string candidate;  ///< the release
+  double before, after;   ///< agreement
+};
+struct History {
+  std::string engine;
+  std::vector<ReleaseStep> steps;
+};
+
 struct Report {
   /// How much of a run there is.
   struct Extent {
@@ -199,6 +211,7 @@ struct Report {
   std::optional<Stability> stability;
   std::optional<ExperimentResults> experiments;
   std::optional<EngineResults> engines;
+  std::optional<History> history;  ///< of the releases among the candidates, where it was asked for
 };
 
 }  // namespace touchstone

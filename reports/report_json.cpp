@@ -18,6 +18,7 @@ json to_json(const PoseClassDescription& c) { return object_of(c); }
 json to_json(const ResultRow& row) { return object_of(row); }
 json to_json(const Factor& f) { return object_of(f); }
 json to_json(const Contrast& c) { return object_of(c); }
+json to_json(const History& history) { return object_of(history); }
 json to_json(const WorstCase& worst) { return object_of(worst); }
 json to_json(const Examination& examination) { return object_of(examination); }
 

@@ -32,6 +32,7 @@ nlohmann::json to_json(const ResultRow& row);
 /// {"id", "configuration", "truth", "answers", "replay"}; without a truth, neither that nor
 /// answers.
 nlohmann::json to_json(const Examination& examination);
+nlohmann::json to_json(const History& history);
 nlohmann::json to_json(const WorstCase& worst);
 nlohmann::json to_json(const Factor& factor);
 nlohmann::json to_json(const Contrast& contrast);

@@ -375,6 +375,18 @@ void members(auto& a, RecordedShare& s) {
   a.named("share", s.share, rule::share);
 }
 
+void members(auto& a, ReleaseStep& s) {
+  a.named("pair", s.pair, rule::pair);
+  a.named("class", s.pose_class);
+  a.named("candidate", s.candidate);
+  a.named("before", s.before, rule::share);
+  a.named("after", s.after, rule::share);
+}
+void members(auto& a, History& h) {
+  a.named("engine", h.engine);
+  a.named("steps", h.steps);
+}
+
 void members(auto& a, Report::Extent& e) {
   a.named("classes", e.classes);
   a.named("configurations", e.configurations);
@@ -421,6 +433,7 @@ void members(Archive& a, Report& r) {
   a.written("stability", r.stability, When::filled);
   a.written("experiments", r.experiments, When::filled);
   a.written("engines", r.engines, When::filled);
+  a.written("history", r.history, When::filled);
 }
 
 }  // namespace touchstone

@@ -22,6 +22,24 @@ npm_releases() {
   npm view "$1" versions --json 2>/dev/null | grep -o '"[^"]*"' | tr -d '"' | sort -V || true
 }
 
+# The candidates of "--history ENGINE" where --candidates names none: the newest ten of the minor
+# versions, of each the newest release. Those of Rapier are three years'.
+history_releases() {
+  local engine='' last='' argument package
+  for argument in "$@"; do
+    case $argument in
+      --candidates | --candidates=*) return ;;
+      --history=*) engine=${argument#*=} ;;
+    esac
+    [ "$last" = --history ] && engine=$argument
+    last=$argument
+  done
+  package=$(npm_package "$engine")
+  [ -z "$package" ] && return
+  npm_releases "$package" | grep -xE '[0-9]+[.][0-9]+[.][0-9]+' | cut -d . -f 1,2 | uniq |
+    tail -n 10 | sed "s/^/$engine@/" | paste -s -d , || true
+}
+
 # Installs the newest release that begins as the name says, "rapier@0.14", in FOLDER/PACKAGE@0.14.1,
 # and calls it PACKAGE@0.14, too. Where npm cannot be asked, what was installed before has to do.
 # Fails on a release that does not exist, with the nearest.

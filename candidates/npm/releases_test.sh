@@ -30,6 +30,11 @@ named=$(named_npm_engines report --candidates reference,rapier@0.14,jolt-margin:
 is "those named" "$(paste -s -d ' ' <<<"$named")" "jolt-margin:0.01@0.30 physx rapier@0.14"
 is "none" "$(named_npm_engines report --candidates reference --out rapier.html)" ""
 
+is "a history" "$(history_releases report --history jolt-world --seed 2)" \
+  jolt-world@0.1,jolt-world@0.9,jolt-world@0.10,jolt-world@0.11,jolt-world@1.0
+is "a choice" "$(history_releases report --history=jolt --candidates=jolt@1,jolt@2)" ""
+is "of no engine from npm" "$(history_releases report --history bullet)" ""
+
 to=$work/versions
 install_release rapier-world@0.10 "$to" 2>/dev/null
 is "the newest" "$(cat "$to/@dimforge/rapier3d-compat@0.10/asked")" @dimforge/rapier3d-compat@0.10.3

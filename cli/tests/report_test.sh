@@ -61,6 +61,7 @@ expect 1 '^bullet: worse on cylinder-plane, 1 class, depth error' compare "$r" "
 expect 0 'smaller changes' compare "$r" "$folder/worse.json" --max-error-factor 1e300
 expect 0 '^bullet: better on cylinder-plane, 1 class, ' compare "$folder/worse.json" "$r"
 expect 0 '"fail_on":\["accuracy","time"\]' compare "$r" "$r" --json --fail-on time
+expect 2 "must have two releases in --candidates, as rapier@1.0,rapier@1.1" report --history rapier --candidates reference
 expect 2 '--fail-on is "speed": must be accuracy' compare "$r" "$r" --fail-on speed
 expect 2 '--max-error-factor is "0.5"' compare "$r" "$r" --max-error-factor 0.5
 expect 2 '--html' compare "$r" "$r" --html "$folder/none/compare.html"

@@ -15,6 +15,7 @@
 #include "properties/files/disk.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/covered_pairs.hpp"
+#include "reports/history.hpp"
 #include "reports/pages/page.hpp"
 
 namespace touchstone {
@@ -365,6 +366,49 @@ std::string class_figure(const Report& report, const std::string& group, const s
                       cells));
 }
 
+/// Agreement and time of each pair over the releases of an engine (history.hpp).
+std::string history_figure(const Report& report, const path& folder) {
+  const std::string& engine = report.history->engine;
+  std::string data = "release,pair,agreement,nanoseconds\n", releases;
+  std::map<std::string, std::string> agreements, times;  // by pair, as gnuplot reads them
+  int x = 0;
+  for (const std::string& name : releases_of(report, engine)) {
+    const std::string release = name.substr(engine.size() + 1);
+    releases += fmt::format("{}{} {}", x ? ", " : "", gnuplot_quoted(release), x);
+    for (const ResultRow& row : report.summary) {
+      const Statistics& s = row.statistics;
+      if (row.candidate != name || row.pose_class != "everyday" || s.supported() == 0) continue;
+      const double share = s.agreement(), time = row.time ? row.time->nanoseconds.median : NAN;
+      data += fmt::format("{},{},{:.6g},{:.6g}\n", csv_cell(release), row.pair, share, time);
+      agreements[row.pair] += fmt::format("{} {:.6g}\n", x, 100 * share);
+      if (row.time) times[row.pair] += fmt::format("{} {:.6g}\n", x, time / 1000);
+    }
+    ++x;
+  }
+  write_file(folder / "history.csv", data, "--figures");
+  const auto panel = [&](const char* title, const std::map<std::string, std::string>& lines) {
+    std::string text = fmt::format("set title {}\n", gnuplot_quoted(engine + ", " + title)), points;
+    int line = 0;
+    for (const auto& [pair, values] : lines) {
+      text += fmt::format("{}'-' with linespoints title {} linetype {} pointtype {} linewidth {}",
+                          line ? ", " : "plot ", gnuplot_quoted(pair == "all" ? "all pairs" : pair),
+                          line + 1, line + 4, pair == "all" ? 3 : 1);
+      points += values + "e\n";
+      ++line;
+    }
+    return lines.empty() ? "" : text + '\n' + points;
+  };
+  return in_both_forms(
+      "history", times.empty() ? 640 : 1080, 420,
+      fmt::format("set multiplot layout 1,{}\nset border 3\nset tics nomirror\n"
+                  "set grid ytics linecolor '#d9dee5'\nset xtics rotate by 45 right ({})\n"
+                  "set xrange [-0.3:{}]\nset key below maxrows 3 font ',9'\nset yrange [:100.5]\n",
+                  times.empty() ? 1 : 2, releases, x - 0.7) +
+          panel("% of everyday poses answered right", agreements) +
+          "set key off\nset logscale y\nset yrange [*:*]\n" + panel("median µs of a query", times) +
+          "unset multiplot\n");
+}
+
 }  // namespace
 
 void check_figures(const path& folder) {
@@ -377,7 +421,7 @@ void check_figures(const path& folder) {
 
 void write_figures(const Report& report, const path& folder) {
   check_figures(folder);
-  for (const char* const name : {"speed-accuracy", "errors-", "classes-"}) {
+  for (const char* const name : {"speed-accuracy", "errors-", "classes-", "history"}) {
     for (const char* const form : {".csv", ".svg", ".png"}) remove_older(folder, name, form);
   }
   std::vector<std::string> names;
@@ -398,6 +442,7 @@ void write_figures(const Report& report, const path& folder) {
                 class_figure(report, name, pair, folder);
     }
   }
+  if (report.history) script += history_figure(report, folder);
   run_gnuplot(script, folder);
 }
 

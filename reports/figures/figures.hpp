@@ -14,8 +14,8 @@ void check_figures(const std::filesystem::path& folder);
 
 /// Figures of a report for papers, each as SVG and PNG with its data as CSV: speed-accuracy of all
 /// pairs and of each, errors-PAIR (cumulative distribution of the depth error) and classes-PAIR
-/// (share that disagrees, by pose class and candidate). Throws std::runtime_error with gnuplot's
-/// words if it fails.
+/// (share that disagrees, by pose class and candidate), and the history of an engine. Throws
+/// std::runtime_error with gnuplot's words if it fails.
 void write_figures(const Report& report, const std::filesystem::path& folder);
 
 /// gnuplot's mark and line of each candidate, as in "pointtype 7 linecolor '#0072b2' dashtype

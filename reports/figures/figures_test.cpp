@@ -88,6 +88,33 @@ TEST(Figures, MarkWhoHasNoRoutineForSomePairs) {
   std::filesystem::remove_all(folder);
 }
 
+TEST(Figures, ShowTheReleasesOfAnEngine) {
+  if (std::system("command -v gnuplot >/dev/null 2>&1") != 0) GTEST_SKIP() << "no gnuplot here";
+  Report report;
+  report.history = History{"mine", {}};
+  for (const auto& [name, right] : {std::pair("mine@1.9", 3U), {"mine@1.10", 4U}}) {
+    report.candidates.push_back({name, name, "1", "", ""});
+    for (const char* pair : {"all", "cylinder-box"}) {
+      ResultRow row{pair, "everyday", name, {}, QueryTime{{1500, 1400, 1600}}, {}, {}, {}};
+      row.statistics.count = 4;
+      row.statistics.outcomes[static_cast<std::size_t>(Outcome::agree)] = right;
+      row.statistics.outcomes[static_cast<std::size_t>(Outcome::missed)] = 4 - right;
+      report.summary.push_back(row);
+    }
+  }
+  const std::filesystem::path folder = testing::TempDir() + "touchstone_history_figure";
+  std::filesystem::create_directory(folder);
+  write_figures(report, folder);
+  EXPECT_EQ(text_of(folder / "history.csv"),
+            "release,pair,agreement,nanoseconds\n1.9,all,0.75,1500\n1.9,cylinder-box,0.75,1500\n"
+            "1.10,all,1,1500\n1.10,cylinder-box,1,1500\n");
+  const std::string svg = text_of(folder / "history.svg");
+  for (const char* text : {">mine, median µs of a query<", ">1.10<", ">all pairs<"}) {
+    EXPECT_THAT(svg, HasSubstr(text));
+  }
+  std::filesystem::remove_all(folder);
+}
+
 // A figure may stand alone: its key tells the candidates apart by colour, symbol and dash.
 TEST(Figures, EveryCandidateHasAStyleOfItsOwn) {
   std::vector<std::string> names;

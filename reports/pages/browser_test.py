@@ -31,6 +31,7 @@ max_bytes = 1_900_000  # of all pose classes; Vega, which is compressed too, is 
 longest = 600  # seconds to wait for the browser, which only a hang takes
 min_contrast = 4.5  # of small text (WCAG 2.2, 1.4.3)
 max_sections = 8
+clients = Path(__file__).parents[2] / "candidates/clients"
 scene = Path(__file__).parents[2] / "simulation/scenes/wheel-on-road.json"
 
 
@@ -969,6 +970,27 @@ class OtherPages(PageTest):
         row = next(r.text for r in self.all("#matrix tbody tr") if r.text.startswith("ode"))
         self.assertEqual(row.count("only before"), 3)
         self.assert_marks(lambda name, pair: 1)
+
+    def test_history(self):
+        """Of an engine of somebody's own, whose second release finds no contact."""
+        folder, commands = Path(self.folder.name) / "history", []
+        folder.mkdir()
+        for release, broken in ((1, ""), (2, "    def query(self, *question): return None\n"), (3, "")):
+            script = folder / f"{release}.py"
+            script.write_text(f"import sys\nsys.path.append({str(clients)!r})\nfrom example import Example, run\n"
+                              f"class Release(Example):\n    name = 'example@{release}'\n{broken}run(Release)\n")
+            commands += ["--candidate-command", f"python3 {script}"]
+        releases = ["example@1", "example@2", "example@3"]
+        text = self.run_program(*commands, "report", "--history", "example", "--candidates", ",".join(releases),
+                                "--count", "1", "--class", "general", "--pair", "cylinder-box",
+                                "--only", "scores", "--out", folder)
+        self.assertRegex(text, r"example@2 +0.0 +-  broke 1\nexample@3 +100.0 +-  mended 1\n")
+        self.open(folder / "history.html")
+        self.assertIn("example, 3 releases, 1 to 3", self.find("#headline").text)
+        self.assertEqual(len(self.all("#agreement-chart .mark-symbol path")), len(releases))
+        self.assertEqual(self.find("#time-chart").text, "Not measured.")
+        self.assertEqual([" ".join(row.text.split()) for row in self.all("#first-table tbody tr")],
+                         ["cylinder–box example@2: general, 100.0% → 0.0% example@3: general, 0.0% → 100.0%"])
 
     def test_stability(self):
         folder = Path(self.folder.name) / "stability"

@@ -87,7 +87,7 @@ addEventListener('resize', () => {
 // Vega's scale and axis. `label` is an expression for the text of a tick; `rest` is passed on to the axis.
 function axis(name, {title, domain, ticks, label, type = 'log', nice = false, ...rest}) {
   const across = name === 'x';
-  return {scale: {name, type, domain, range: across ? 'width' : 'height', ...(type === 'point' ? {padding: 0.5} : {nice})},
+  return {scale: {name, type, domain, range: across ? 'width' : 'height', ...(type === 'point' ? {padding: 0.5} : {nice, zero: false})},
           axis: {orient: across ? 'bottom' : 'left', scale: name, title, ...(ticks && {values: ticks}),
                  ...(label && {encode: {labels: {update: {text: {signal: label}}}}}), ...rest}};
 }

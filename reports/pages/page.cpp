@@ -21,7 +21,8 @@ extern const std::string_view report_html, compare_html, replay_html, choose_htm
     motion_html, history_html;
 extern const std::string_view report_js, report_failures_js, report_tables_js, report_charts_js,
     report_method_js, casts_js;
-extern const std::string_view compare_js, replay_js, stability_js, choose_js, engines_js, motion_js;
+extern const std::string_view compare_js, replay_js, stability_js, choose_js, engines_js, motion_js,
+    history_js;
 extern const std::string_view bodies_js, view_js, chart_js, vega_js;
 
 namespace {
@@ -61,6 +62,12 @@ PageParts parts_of(Page page) {
               engines_html,
               false,
               {bodies_js, view_js, motion_js, engines_js, "drawEnginesPage();\n"}};
+    case Page::history:
+      return {"releases of an engine",
+              "What did each release change?",
+              history_html,
+              true,
+              {history_js}};
   }
   return {};
 }

@@ -13,7 +13,7 @@ namespace touchstone {
 
 struct Scene;
 
-enum class Page { report, comparison, replay, stability, choice, engines };
+enum class Page { report, comparison, replay, stability, choice, engines, history };
 
 /// One self-contained HTML file: the shell that all pages share (page.html), filled with a page's
 /// own part, its scripts and, compressed, Vega and its data. It loads nothing from elsewhere, and
