@@ -26,10 +26,6 @@ void keep_within(Interval& range, double a, double b, double bound) {
 
 /// A line that runs along an edge but for this part of rounding is on it or within it.
 constexpr double hair_part = 4e3;
-/// One that crosses it by less than this part of its body's radius is so the longer the less it
-/// does, for where they cross is no more than a step nobody sees says. Its points are moved to the
-/// edge, where its round body lies lower by the square of that.
-constexpr double grazing_part = unseen_part / 4;
 
 constexpr double crossed = 0.1;  // rad; lines that turn by more cross in a point
 
@@ -87,6 +83,7 @@ void segment_on_flat(const Manifold& to, const FacingFeature& segment, const Fac
   const Incline surface = plane.incline(flat);
   Interval range{-l.half_length, l.half_length};
   std::optional<Strip> grazed;  // of a rectangle, the edges that the line all but runs along
+  bool grazes_polygon = false;
   if (flat.kind == Kind::disc) {
     const Circle disc{plane.to_plane(flat.middle), flat.radius};
     const double squared = l.along.squaredNorm();
@@ -96,13 +93,13 @@ void segment_on_flat(const Manifold& to, const FacingFeature& segment, const Fac
     // A line that touches the rim has one point of it, whichever side of it rounding puts it on. As
     // the normal leans about the rim by a hair, the line moves by that part of its body's radius.
     const double hair = unseen_part * (disc.radius + l.radius);
-    const bool touches = disc.radius - std::abs(offset) <= hair;
+    const double within = disc.radius - std::abs(offset), reaches = ramp(within, hair, 2 * hair);
     const double half =
-        touches ? 0 : std::sqrt((disc.radius - offset) * (disc.radius + offset) / squared);
+        reaches > 0 ? reaches * std::sqrt(within * (disc.radius + std::abs(offset)) / squared) : 0;
     range = {std::max(range.lo, foot - half), std::min(range.hi, foot + half)};
   } else if (flat.kind == Kind::polygon) {
-    keep_within_polygon(range, l, CarriedCorners(plane, flat, Vec2::Zero()),
-                        hair_part * plane.margins().rounding);
+    grazes_polygon = keep_within_polygon(range, l, CarriedCorners(plane, flat, Vec2::Zero()),
+                                         hair_part * plane.margins().rounding);
   } else {  // a rectangle
     // The edges that the line crosses first. One that runs along the others, but for a hair, does
     // so within them or on one, whichever side of that rounding puts it on.
@@ -113,12 +110,12 @@ void segment_on_flat(const Manifold& to, const FacingFeature& segment, const Fac
       const double hair = hair_part * plane.margins().rounding;
       const double slant = std::abs(along[i]) * (range.hi - range.lo);
       if (slant <= hair) continue;
-      const double seen = std::max(grazing_part * l.radius - slant, 0.0);
-      if (seen > 0) [[unlikely]]
+      const double beyond = let_beyond(l.radius, slant);
+      if (beyond > 0) [[unlikely]]
         grazed = strips[i];
       const double offset = strips[i].across.dot(l.middle) - strips[i].middle;
       Interval within = range;
-      keep_within(within, offset, along[i], strips[i].half_width + seen);
+      keep_within(within, offset, along[i], strips[i].half_width + beyond);
       if (within.empty()) {  // they only touch, at the nearer end
         const double middle = offset + along[i] * (range.lo + range.hi) / 2;
         within.lo = within.hi = middle * along[i] > 0 ? range.lo : range.hi;
@@ -147,10 +144,11 @@ void segment_on_flat(const Manifold& to, const FacingFeature& segment, const Fac
     if (grazed) {
       const double across = grazed->across.dot(p) - grazed->middle;
       const double off = across - within(across, -grazed->half_width, grazed->half_width);
-      if (std::abs(off) <= grazing_part * l.radius) {
+      if (std::abs(off) <= let_beyond(l.radius, 0)) {
         p -= off / grazed->across.squaredNorm() * grazed->across;
       }
     }
+    if (grazes_polygon) p = moved_onto(CarriedCorners(plane, flat, Vec2::Zero()), l.radius, p);
     segment_is_a ? plane.add(p, on_line, on_flat) : plane.add(p, on_flat, on_line);
   };
   // Ends that hardly overlap are one point, whichever side rounding puts them on.
