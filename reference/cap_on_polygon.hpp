@@ -27,13 +27,21 @@ class CapOnPolygon {
  public:
   CapOnPolygon(double radius, const Corners& corners) : radius_(radius), corners_(corners) {
     double nearest = std::numeric_limits<double>::infinity();
+    Vec2 first = Vec2::Zero(), before = first;
+    const auto turn = [&](const Vec2& from, const Vec2& to) {
+      if (from.dot(to) > 0) half_turn_ = std::min(half_turn_, std::abs(cross2(from, to)) / 2);
+    };
     for_each_side([&](const Side& s) {
       if (!(s.distance >= 0)) is_centre_inside_ = false;
       nearest = std::min(nearest, s.distance);
+      if (first.isZero()) first = s.outward;
+      turn(before, s.outward);
+      before = s.outward;
       if (!(s.lo <= s.hi)) return;
       is_cut_ = true;
       max_cut_ = std::max(max_cut_, (radius_ - s.distance) / radius_);
     });
+    turn(before, first);
     inner_ = std::min(radius_, nearest);
   }
 
@@ -49,15 +57,23 @@ class CapOnPolygon {
     });
     return found;
   }
-  /// The place that is farthest along a unit vector.
-  Vec2 farthest(const Vec2& unit, double = 0) const {
+  /// As CapOnFace.
+  Vec2 farthest(const Vec2& unit, double straight = 0) const {
     const Vec2 arm = radius_ * unit;
-    bool is_inside = true;
+    bool is_inside = true, is_along_side = false;
     Vec2 found = arm;
     double most = -std::numeric_limits<double>::infinity();
+    straight = std::min(straight, half_turn_);
     for_each_side([&](const Side& s) {
       is_inside = is_inside && s.outward.dot(arm) <= s.distance;
-      if (!(s.lo <= s.hi)) return;
+      if (!(s.lo <= s.hi) || is_along_side) return;
+      const double sine = cross2(s.outward, unit);
+      if (std::abs(sine) < straight && unit.dot(s.outward) > 0) {
+        is_along_side = true;
+        const double half = (s.hi - s.lo) / 2, gain = std::max(radius_, half / straight);
+        found = s.place(within((s.lo + s.hi) / 2 + gain * sine, s.lo, s.hi));
+        return;
+      }
       for (const double t : {s.lo, s.hi}) {
         const Vec2 p = s.place(t);
         if (const double far = unit.dot(p); far > most) most = far, found = p;
@@ -175,7 +191,9 @@ class CapOnPolygon {
     });
     add_between(before, first);
     if (!some) {
-      constexpr double cosine = 0.9238795325112867, sine = 0.3826834323650898;  // of 22.5°
+      // The golden section of 45°, so that of a regular polygon none is across a side, of which
+      // rounding would say which end is the farther one.
+      constexpr double cosine = 0.9553378474102883, sine = 0.29551581566047647;
       constexpr double diagonal = 0.7071067811865476;
       Vec2 way = cosine * first + sine * turned_left(first);
       for (int i = 0; i < max_points; ++i) {
@@ -190,6 +208,7 @@ class CapOnPolygon {
   const Corners& corners_;
   double inner_;  ///< radius of the circle about the middle that is in cap and polygon
   double max_cut_ = 0;
+  double half_turn_ = 0.5;  ///< half the sine by which the polygon turns least at a corner
   bool is_cut_ = false, is_centre_inside_ = true;
 };
 
