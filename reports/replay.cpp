@@ -50,7 +50,7 @@ json with_candidates(json data, const std::map<std::string, std::string>& runs) 
     if (how != "native") data["runs"][name] = how;
     // Needs an option before it is known.
     const std::string program = program_name({name});
-    if (program != data["program"]) data["programs"][name] = program;
+    if (data["program"] != program) data["programs"][name] = program;
   }
   return data;
 }
