@@ -6,7 +6,6 @@
 
 #include "cli/command.hpp"
 #include "cli/options.hpp"
-#include "oracle/audit/certificate.hpp"
 #include "properties/files/configuration_json.hpp"
 #include "properties/files/disk.hpp"
 #include "reports/solve.hpp"
@@ -25,23 +24,29 @@ struct ReplayArguments {
   std::uint64_t cells = 4000;
 };
 
+std::string certificate_of(const Subject& given, const ReplayArguments& options) {
+  const Configuration& c = given.configuration;
+  if (!given.sweep) {
+    const audit::Budget budget{options.width, static_cast<int>(options.cells)};
+    return certificate_json(audit::certify(c, budget), c);
+  }
+  if (given.sweep->turns()) {
+    throw InvalidInput("spin", "given", "must be left out: --certify knows no turns");
+  }
+  const Vec3& sweep = given.sweep->translation();
+  return certificate_json(audit::certify_cast(c, sweep), c, sweep);
+}
+
 int run_replay(const ReplayArguments& options, bool emits) {
   const Bar bar = options.bar.get();
   const Subject given = given_configuration(
       options.input, options.id.empty() ? std::nullopt : std::optional(options.id));
-  for (const auto& [is_given, asked] :
-       {std::pair(options.certifies, "--certify"), std::pair(emits, "--emit"),
-        std::pair(!options.html.empty(), "--html")}) {
-    if (is_given) refuse_sweep(given, asked);
-  }
   if (options.certifies) {
-    const Configuration& c = given.configuration;
-    const audit::Certificate certificate =
-        audit::certify(c, {options.width, static_cast<int>(options.cells)});
-    print(certificate_json(certificate, c) + '\n');
+    print(certificate_of(given, options) + '\n');
     return 0;
   }
   if (emits) {
+    refuse_sweep(given, "--emit");
     const std::string asked = given.name + (given.id.empty() ? "" : ", id " + given.id);
     print(reproducer(options.engine, options.language, given.configuration, asked, bar,
                      options.candidates.limits()));
@@ -51,12 +56,12 @@ int run_replay(const ReplayArguments& options, bool emits) {
   if (!options.html.empty()) check_file_writable(options.html, "--html");
   auto candidates = start(options.candidates.get(), bar.threshold, options.candidates.limits());
   const Examination shown = examine(given, pointers(candidates), bar, 1e-30);
-  if (!options.html.empty()) {
-    write_file(options.html, replay_page(shown, given.description), "--html");
-  }
   std::optional<CastExamination> cast;
   if (given.sweep) {
     cast = examine_cast(given.configuration, *given.sweep, options.candidates.get(), bar);
+  }
+  if (!options.html.empty()) {
+    write_file(options.html, replay_page(shown, given.description, cast), "--html");
   }
   if (options.json) {
     print(replay_json(shown, cast));
@@ -84,10 +89,10 @@ void add_replay(Program& program) {
   command.text("--language", "LANGUAGE", options->language,
                "Language of that program, where there are several: c++, javascript, python");
   command.text("--html", "FILE", options->html,
-               "Write a page too: both bodies in 3-D, a slice, and all numbers");
-  const Option certify =
-      command.flag("--certify", options->certifies,
-                   "Print a proof of the signed distance, a file that others can check");
+               "Write a page too: both bodies in 3-D, a slice, and all numbers; a cast in motion");
+  const Option certify = command.flag(
+      "--certify", options->certifies,
+      "Print a proof of the signed distance, or of a cast, a file that others can check");
   command.number("--width", options->width, {1e-60, 1e30},
                  "Width to prove, relative to the larger size; down to 1e-60");
   command

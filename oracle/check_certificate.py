@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Checks certificates of `touchstone replay --certify`: check_certificate.py FILE...
 
-A certificate proves lo <= signed distance <= hi of two bodies; oracle/truth.md has the format,
-the proof and the limits. All arithmetic is rational, and nothing is shared with the program that
+A certificate proves lo <= signed distance <= hi of two bodies, or how far one may move before it
+comes next to the other; oracle/truth.md has the format, the proof and the limits. All arithmetic is rational, and nothing is shared with the program that
 wrote the certificate. Prints what each file proves, or why it is rejected. Exit code: 0 all are
 accepted, 1 one is rejected, 2 one cannot be read.
 """
@@ -21,6 +21,7 @@ MAX_DIGITS = 4000  # of a numerator or a denominator
 MAX_CELLS = 100_000
 MAX_LEVEL = 1000  # quarterings from a face of the cube down to a cell
 MAX_VERTICES = 4096
+MAX_PARTS = 1000  # of a sweep
 ROOT_BITS = 600  # roots are bounded to a relative 2^-600
 
 FRACTION = re.compile(rf"(-?[0-9]{{1,{MAX_DIGITS}}})(?:/([1-9][0-9]{{0,{MAX_DIGITS - 1}}}))?")
@@ -35,7 +36,7 @@ SHAPES = {"cylinder": ("radius", "half_length"), "capsule": ("radius", "half_len
           "sphere": ("radius",), "box": ("half_extents",), "plane": ("normal", "displacement"),
           "convex": ("vertices",)}
 ROUNDED = ("cylinder", "box", "convex")  # may have a rounding
-LENGTHS = {"half_extents": 3, "normal": 3, "position": 3, "orientation": 4}  # the rest are numbers
+LENGTHS = {"half_extents": 3, "normal": 3, "position": 3, "sweep": 3, "orientation": 4}  # the rest are numbers
 IDENTITY = {"position": [0.0, 0.0, 0.0], "orientation": [1.0, 0.0, 0.0, 0.0]}
 
 
@@ -382,22 +383,65 @@ def check_width(width, exact, size):
     require(width is None or error <= exact / 2**40 + size / 2**1074, "width is not hi - lo")
 
 
+def check_schema(certificate, schema):
+    require(certificate["schema"] == schema, "schema", certificate["schema"], schema)
+
+
+def bodies(configuration, n):
+    """The cylinder, the other body, and the normal from that to the cylinder."""
+    a, b = Body("a", configuration), Body("b", configuration)
+    return (a, b, n) if a.kind == "cylinder" else (b, a, [-x for x in n])
+
+
+def check_cast(certificate):
+    """How far body a moves, as a part of its sweep, without overlapping b, and how near it is to b
+    there; None for the whole sweep. Raises Rejected."""
+    is_near = "pair" in certificate
+    members(certificate, "certificate", ("schema", "configuration", "exact", "apart",
+                                         *(("pair", "distance") if is_near else ())))
+    check_schema(certificate, "touchstone-cast-certificate-1")
+    given = certificate["configuration"]
+    require(isinstance(given, dict) and "sweep" in given, "configuration.sweep is missing")
+    sweep = doubles(given, "configuration", ("sweep",))["sweep"]
+    configuration = read_configuration({k: x for k, x in given.items() if k != "sweep"})
+    require_same(certificate["exact"], {**configuration, "sweep": sweep}, "exact")
+    start = configuration["pose_a"]["position"]
+    parts = certificate["apart"]
+    require(isinstance(parts, list) and 0 < len(parts) <= MAX_PARTS,
+            "apart", parts, f"an array of 1 to {MAX_PARTS} parts")
+    t = Fraction(0)
+    for i, part in enumerate(parts):
+        members(part, f"apart[{i}]", ("until", "normal"))
+        until = rational(part["until"], f"apart[{i}].until")
+        require(t <= until <= 1, f"apart[{i}].until", part["until"], "in order, from 0 to 1")
+        normal = vector(part["normal"], f"apart[{i}].normal")
+        for end in (t, until):  # the gap is linear in between
+            position = [x + end * w for x, w in zip(start, sweep)]
+            configuration["pose_a"] = {**configuration["pose_a"], "position": position}
+            a, b, n = bodies(configuration, normal)
+            check_lower(a, b, n, a.rounding + b.rounding)
+        t = until
+    require(is_near or t == 1, "pair is missing, and the parts end before 1")
+    if not is_near:
+        return t, None
+    distance = rational(certificate["distance"], "distance")
+    require(distance >= 0, "distance is negative")
+    check_pair(a, b, n, distance + a.rounding + b.rounding, certificate["pair"])
+    return t, distance
+
+
 def check(certificate):
     """The proven ends. Raises Rejected."""
     bound = "pair" if isinstance(certificate, dict) and "pair" in certificate else "cells"
     members(certificate, "certificate", ("schema", "configuration", "exact", "signed_distance",
                                          "grain", "width", "normal", bound))
-    schema = "touchstone-certificate-1"
-    require(certificate["schema"] == schema, "schema", certificate["schema"], schema)
+    check_schema(certificate, "touchstone-certificate-1")
     configuration = read_configuration(certificate["configuration"])
     require_same(certificate["exact"], configuration, "exact")
     lo, hi = array(certificate["signed_distance"], "signed_distance", 2, rational)
     grain = rational(certificate["grain"], "grain")
     require(grain > 0 and lo % grain == 0 == hi % grain, "lo or hi is no multiple of the grain")
-    a, b = Body("a", configuration), Body("b", configuration)
-    n = vector(certificate["normal"], "normal")  # from b to a
-    if a.kind != "cylinder":
-        a, b, n = b, a, [-x for x in n]
+    a, b, n = bodies(configuration, vector(certificate["normal"], "normal"))  # from b to a
     rounding = a.rounding + b.rounding  # by which the cores are farther apart, along every direction
     check_lower(a, b, n, lo + rounding)
     if bound == "pair":
@@ -416,7 +460,12 @@ def rounded(x, digits):
 def verdict(data):
     """What a file's bytes prove, and whether they do."""
     try:
-        lo, hi = check(parse(data))
+        certificate = parse(data)
+        if isinstance(certificate, dict) and "apart" in certificate:
+            part, distance = check_cast(certificate)
+            near = "" if distance is None else f", then {rounded(distance, 2)} m apart at most"
+            return True, f"accepted: free for {rounded(part, 17)} of its sweep{near}"
+        lo, hi = check(certificate)
         return True, f"accepted: {rounded(lo, 17)} m, width {rounded(hi - lo, 2)} m"
     except Rejected as reason:
         return False, f"rejected: {reason}"

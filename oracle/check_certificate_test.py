@@ -88,6 +88,19 @@ def overlap_with_hull():
     return value
 
 
+def let_down():
+    """A can whose lower cap comes from 4 m, by 4 m, down to the top of a sphere at 2 m; its rim
+    alone proves the first eighth."""
+    value = certificate(cylinder(), pose([0.0, 0.0, 5.0]), {"shape": "sphere", "radius": 2.0},
+                        pose([0.0, 0.0, 0.0]))
+    value["configuration"]["sweep"], value["exact"]["sweep"] = [0.0, 0.0, -4.0], ["0", "0", "-4"]
+    return {"schema": "touchstone-cast-certificate-1", "configuration": value["configuration"],
+            "exact": value["exact"],
+            "apart": [{"until": "1/8", "normal": ["0", "3", "4"]},
+                      {"until": "1/2", "normal": ["0", "0", "2"]}],
+            "pair": {"a": ["0", "0", "-1"], "b": ["0", "0", "2"]}, "distance": "0"}
+
+
 def split(entry):
     return [{**entry, "cell": entry["cell"] + quarter} for quarter in "0123"]
 
@@ -505,6 +518,45 @@ class Proof(CheckerTest):
                 self.assert_accepted(value)
             else:
                 self.assert_rejected(value, "does not bound")
+
+
+class CastProof(CheckerTest):
+    def test_what_holds_is_accepted(self):
+        self.assertRegex(checker.verdict(text(let_down()))[1], "^accepted: free for 0.5 of its sweep, then 0 m apart")
+        swapped = let_down()
+        for form in ("configuration", "exact"):
+            numbers = swapped[form]
+            for one, other in (("a", "b"), ("pose_a", "pose_b")):
+                numbers[one], numbers[other] = numbers[other], numbers[one]
+            numbers["sweep"] = [0.0, 0.0, 4.0] if form == "configuration" else ["0", "0", "4"]
+        swapped["apart"] = [{**part, "normal": ["-" + x if x != "0" else x for x in part["normal"]]}
+                            for part in swapped["apart"]]
+        swapped["pair"] = {"a": swapped["pair"]["b"], "b": swapped["pair"]["a"]}
+        self.assert_accepted(swapped)
+
+    def test_without_a_touch_the_normals_hold_to_the_end(self):
+        never = changed(changed(let_down(), ("configuration", "sweep"), [8.0, 0.0, 0.0]), ("exact", "sweep"), ["8", "0", "0"])
+        never["apart"][1]["until"] = "1"
+        del never["pair"], never["distance"]
+        self.assertEqual(checker.verdict(text(never)), (True, "accepted: free for 1 of its sweep"))
+
+    def test_each_fault_is_rejected(self):
+        farther = changed(let_down(), ("apart", 1, "until"), "1001/2000")
+        self.assert_rejected(farther, "gap along the normal")
+        self.assert_rejected(changed(let_down(), ("apart", 0, "until"), "1/2"), "gap along the normal")
+        self.assert_rejected(changed(let_down(), ("apart", 1, "normal"), ["0", "0", "-1"]), "gap along the normal")
+        self.assert_rejected(changed(let_down(), ("apart", 0, "until"), "-1/8"), "in order")
+        self.assert_rejected(changed(let_down(), ("apart", 1, "until"), "1/16"), "in order")
+        self.assert_rejected(changed(let_down(), ("apart",), []), "apart is an array of 0")
+        self.assert_rejected(changed(let_down(), ("pair", "b"), ["0", "0", "1"]), "farther apart")
+        self.assert_rejected(changed(let_down(), ("pair", "a"), ["0", "0", "-2"]), "outside body a")
+        self.assert_rejected(changed(let_down(), ("distance",), "-1"), "distance is negative")
+        self.assert_rejected(changed(let_down(), ("exact", "sweep", 2), "-5"), "exact.sweep")
+        self.assert_rejected(changed(let_down(), ("schema",), "touchstone-certificate-1"), "schema")
+        for name in let_down():
+            value = let_down()
+            del value[name]
+            self.assert_rejected(value, "missing|not known")
 
 
 class Limits(CheckerTest):

@@ -22,16 +22,19 @@ namespace {
 
 using nlohmann::json;
 
+json with_cast(json examination, const std::optional<CastExamination>& cast) {
+  if (cast) {
+    examination["cast"] = to_json(*cast);
+    examination["configuration"] = to_json(cast->configuration, cast->sweep);
+  }
+  return examination;
+}
+
 }  // namespace
 
 std::string replay_json(const Examination& examination,
                         const std::optional<CastExamination>& cast) {
-  json result = to_json(examination);
-  if (cast) {
-    result["cast"] = to_json(*cast);
-    result["configuration"] = to_json(cast->configuration, cast->sweep);
-  }
-  return result.dump() + '\n';
+  return with_cast(to_json(examination), cast).dump() + '\n';
 }
 
 double nearest_to_middle(const oracle::Enclosure& e) {
@@ -55,8 +58,9 @@ json with_candidates(json data, const std::map<std::string, std::string>& runs) 
   return data;
 }
 
-std::string replay_page(const Examination& examination, const std::string& description) {
-  json data = to_json(examination);
+std::string replay_page(const Examination& examination, const std::string& description,
+                        const std::optional<CastExamination>& cast) {
+  json data = with_cast(to_json(examination), cast);
   data["hexadecimal"] = to_hex_json(examination.configuration);
   data["exact"] = to_exact_json(examination.configuration);
   data["description"] = description;

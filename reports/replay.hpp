@@ -39,9 +39,11 @@ std::string replay_json(const Examination& examination,
                         const std::optional<CastExamination>& cast = {});
 
 /// One self-contained page: both bodies in three dimensions and in a slice through the contact,
-/// with the contact points and normals of truth and candidates, and all numbers. Nothing is loaded
-/// from elsewhere.
-std::string replay_page(const Examination& examination, const std::string& description);
+/// with the contact points and normals of truth and candidates, and all numbers. Of a cast, A is
+/// moved along its sweep by a slider, to the fractions of the truth and of candidates. Nothing is
+/// loaded from elsewhere.
+std::string replay_page(const Examination& examination, const std::string& description,
+                        const std::optional<CastExamination>& cast = {});
 
 /// A page's data with what its script asks of candidates: their marks, which do not run as native
 /// code, and how the program is started so that it knows each. `runs`: how each runs, by name.

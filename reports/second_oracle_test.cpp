@@ -16,8 +16,10 @@
 #include <nlohmann/json.hpp>
 
 #include "candidates/candidates.hpp"
+#include "oracle/first_touch.hpp"
 #include "oracle/rounded.hpp"
 #include "oracle/truth.hpp"
+#include "properties/casts.hpp"
 #include "properties/files/configuration_json.hpp"
 #include "properties/identity.hpp"
 #include "properties/numbers.hpp"
@@ -172,6 +174,29 @@ TEST_P(Certificates, OfRoundedBodiesAreAcceptedAndEncloseTheTruth) {
     SCOPED_TRACE(to_string(id));
     certify_truth(rounded_by(make_configuration(id), parts[count() % 2], parts[count() / 2 % 2]));
   }
+}
+
+TEST_P(Certificates, OfCastsAreAcceptedAndEndAtTheTouch) {
+  const Folder folder;
+  std::size_t count = 0;
+  for (const CastMotion& motion : cast_motions()) {
+    for (std::uint64_t i = 0; i < 2; ++i) {
+      const CastIdentity id{{GetParam(), "general+apart", 20261121, i}, &motion};
+      SCOPED_TRACE(to_string(id));
+      const auto [c, sweep] = make_cast(id);
+      const oracle::FirstTouch truth = oracle::first_touch(c, Sweep(sweep));
+      if (truth.status == oracle::FirstTouch::Status::from_start) continue;
+      const audit::CastCertificate proof = audit::certify_cast(c, sweep);
+      // One that grazes may be as near as that without a touch.
+      EXPECT_TRUE(proof.pair || truth.status == oracle::FirstTouch::Status::never);
+      EXPECT_LE(proof.apart.back().until, truth.fraction.hi);
+      EXPECT_LE(proof.distance.get_d(), 1e-14 * (larger_size(c) + c.pose_a.position().norm() +
+                                                 c.pose_b.position().norm() + sweep.norm()));
+      folder.write(std::to_string(count++), certificate_json(proof, c, sweep));
+    }
+  }
+  EXPECT_GE(count, 5u);
+  folder.expect_accepted(count);
 }
 
 TEST_P(CertificatesOfExtremes, OfTheSmallestAndLargestLengthsAreAccepted) {

@@ -98,6 +98,25 @@ std::string certificate_json(const audit::Certificate& certificate,
   return result.dump();
 }
 
+std::string certificate_json(const audit::CastCertificate& certificate,
+                             const Configuration& configuration, const Vec3& sweep) {
+  json exact_input = to_exact_json(configuration);
+  exact_input["sweep"] = exact(
+      audit::RationalVector{mpq_class(sweep.x()), mpq_class(sweep.y()), mpq_class(sweep.z())});
+  json result = {{"schema", "touchstone-cast-certificate-1"},
+                 {"configuration", to_hex_json(configuration, Sweep(sweep))},
+                 {"exact", exact_input},
+                 {"apart", json::array()}};
+  for (const auto& [until, normal] : certificate.apart) {
+    result["apart"].push_back({{"until", until.get_str()}, {"normal", exact(normal)}});
+  }
+  if (certificate.pair) {
+    result["pair"] = exact(*certificate.pair);
+    result["distance"] = certificate.distance.get_str();
+  }
+  return result.dump();
+}
+
 namespace {
 
 /// What a line of input has for an answer: itself as JSON, and the truth.

@@ -8,7 +8,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "candidates/host/candidate_process.hpp"
-#include "oracle/audit/certificate.hpp"
+#include "oracle/audit/cast_certificate.hpp"
 #include "oracle/audit/enclose.hpp"
 #include "oracle/judge/score.hpp"
 #include "oracle/truth.hpp"
@@ -52,5 +52,7 @@ nlohmann::json to_json(const audit::Enclosure& audit);
 /// The certificate with the configuration that it is about, one JSON object (oracle/truth.md).
 std::string certificate_json(const audit::Certificate& certificate,
                              const Configuration& configuration);
+std::string certificate_json(const audit::CastCertificate& certificate,
+                             const Configuration& configuration, const Vec3& sweep);
 
 }  // namespace touchstone

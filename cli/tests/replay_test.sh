@@ -83,10 +83,10 @@ also '^ *agree  *touch  *0.3333' '"sweep":\[0.0,0.0,-9.0\]'
 expect 0 '"cast":{"answers":{"reference":{"fraction":0.3333' replay "$folder/cast.jsonl" --json --candidates reference
 echo "$printed" >"$folder/saved_cast.json"
 expect 0 'cast: A touches B first when it has gone 0.3333' replay "$folder/saved_cast.json" --candidates reference
-for way in --certify "--emit bullet" "--html $folder/cast.html"; do
-  # shellcheck disable=SC2086
-  expect 2 "^error: sweep is \[0.0,0.0,-9.0\]: must be left out: ${way%% *} knows no casts" replay "$folder/cast.jsonl" $way
-done
+expect 2 '^error: sweep is \[0.0,0.0,-9.0\]: must be left out: --emit knows no casts' replay "$folder/cast.jsonl" --emit bullet
+expect 0 '"schema":"touchstone-cast-certificate-1"' replay "$folder/cast.jsonl" --certify
+expect 2 '^error: spin is given: must be left out: --certify knows no turns' replay <(sed 's/"sweep"/"spin":[1,0,0],&/' "$folder/cast.jsonl") --certify
+expect 2 '^error: sweep is of bodies that touch or overlap: must start' replay <(sed 's/0,0,5/0,0,1/' "$folder/cast.jsonl") --certify
 expect 2 '^error: sweep is .*must be left out: stability knows no casts' stability "$folder/cast.jsonl"
 expect 2 'sweep\[1\] is \[\]: must be' replay <(sed 's/\[0,0,-9\]/[0,[],1]/' "$folder/cast.jsonl")
 

@@ -823,6 +823,14 @@ class OtherPages(PageTest):
         before = self.picture("#view")
         self.find("#view-contact").click()
         self.assertNotEqual(self.picture("#view"), before)
+        self.run_program("replay", "cylinder-sphere/side/1/2/passing", "--candidates", "reference,bullet", "--html", page)
+        self.open(page)
+        self.assertRegex(self.find("#headline").text, "^A (never )?touches B")
+        self.assertNotEqual(self.find("#cast-table").text, "")
+        slider, seen = self.find("#sweep-part"), self.picture("#view")
+        self.find("#sweep-stops button").click()
+        self.assertEqual(slider.get_attribute("value"), "0")
+        self.assertNotEqual(self.picture("#view"), seen, "A is not back at its start")
         for name in ("plane/general", "sphere/general", "capsule/general", "cylinder/general", "convex/general",
                      "convex/general+triangle"):
             self.run_program("replay", f"cylinder-{name}/1/0", "--candidates", "reference", "--html", page)

@@ -76,8 +76,19 @@ function drawSlice(scene) {
   slice.svg.replaceChildren(...parts);
 }
 
+// Of a cast the views show the truth where A touches, if it does, with A as far along its sweep as the slider says.
 const view = makeView(byId('view'));
-const truth = data.truth, given = data.configuration, answers = Object.entries(data.answers);
+const cast = data.cast, castAnswers = Object.entries(cast?.answers ?? {}), touches = Boolean(cast?.truth.there);
+const truth = touches ? cast.truth.there : data.truth, given = data.configuration, answers = Object.entries(data.answers);
+const touch = cast ? Number(cast.truth.fraction[1]) : 0;
+let part = touch;
+function moved() {
+  if (!cast) return given;
+  const {position, orientation: [w, x, y, z]} = given.pose_a, angle = part * length(given.spin ?? [0, 0, 0]);
+  const [c, s] = [Math.cos(angle / 2), angle ? times(given.spin, Math.sin(angle / 2) / length(given.spin)) : [0, 0, 0]];
+  const q = add(add(times([x, y, z], c), s, w), cross(s, [x, y, z]));
+  return {...given, pose_a: {position: add(position, given.sweep, part), orientation: [c * w - dot(s, [x, y, z]), ...q]}};
+}
 const shortest = v => v === null ? '–' : plainNumber(v);
 const vectorCell = v => element('td', {class: 'text wrap'}, vector(v));
 const vector = v => v === null ? '–' : `(${v.map(c => c === null ? 'nan' : plainNumber(c)).join(', ')})`;
@@ -88,11 +99,14 @@ const shown = new Set(answers.filter(([name, a]) => a.status === 'contact' && (n
 let scene, shows;
 
 // Moves the origin to the contact of the true normal `index`.
+function place(index) {
+  scene = makeScene(moved(), truth, index, data.faces);
+  shows = {contact: [], smaller: [smallerBody(scene)], whole: scene.bodies};
+}
 function aim(index) {
-  scene = makeScene(given, truth, index, data.faces);
+  place(index);
   aimView(view, scene.normal, scene.across);
   slice.across = scene.across;
-  shows = {contact: [], smaller: [smallerBody(scene)], whole: scene.bodies};
   const thin = closeUp(view, scene), bodies = thin ? [] : mainBodies(scene);
   fitView(view, bodies, thin?.reach, thin?.about);
   fitSlice(bodies, scene.normal, thin?.reach, thin?.about);
@@ -104,7 +118,7 @@ function turnSlice() {
   redraw();
 }
 function redraw() {
-  scene.marks = marksOf(scene, truth, answers.filter(([name]) => shown.has(name)));
+  scene.marks = touches || !cast ? marksOf(scene, truth, cast ? [] : answers.filter(([name]) => shown.has(name))) : [];
   drawContact(view, scene);
   drawSlice(scene);
 }
@@ -125,10 +139,40 @@ function showAll(all) {
   redraw();
 }
 
+// The slider, with a button for each fraction, and what candidates answer.
+function sweepControls() {
+  const slider = byId('sweep-part'), shownPart = byId('sweep-value');
+  const move = to => {
+    part = to;
+    shownPart.textContent = `${shortest(part)} of the sweep`;
+    place(Number(byId('slice-normal').value || 0));
+    redraw();
+  };
+  slider.addEventListener('input', () => move(Number(slider.value)));
+  const stops = [['start', 0], [`truth: ${cast.truth.status}`, touch], ...castAnswers.filter(([, a]) => a.fraction !== undefined)
+      .map(([name, a]) => [`${name}: ${a.status}`, a.fraction])];
+  byId('sweep-stops').append(...stops.map(([name, at]) => {
+    const button = element('button', {type: 'button'}, `${name} ${plainNumber(at, 4)}`);
+    button.addEventListener('click', () => { slider.value = at; move(at); });
+    return button;
+  }));
+  slider.value = part;
+  shownPart.textContent = `${shortest(part)} of the sweep`;
+  byId('cast-table').append(table([textColumn('candidate'), textColumn('outcome'), textColumn('answer'), 'fraction', 'left there', 'regret', textColumn('normal')],
+      castAnswers.map(([n, a]) => [named(n), element('td', {class: 'text'}, a.score.outcome), element('td', {class: 'text'}, a.reason ? `${a.status}: ${a.reason}` : a.status),
+          shortest(a.fraction ?? null), exponent(a.score.distance), exponent(a.score.normal_regret), vectorCell(a.normal ?? null)]),
+      'When A touches first; what is left is the signed distance there, relative to the smaller size'));
+  for (const id of ['sweep', 'casts']) byId(id).hidden = false;
+  document.querySelector('fieldset.legend').style.display = 'none';
+  document.querySelector('#answers h2').textContent = 'Answers before A moves';
+  if (touches) document.querySelector('#truth h2').textContent = 'Truth where A touches';
+}
+
 function truthValues() {
   const patches = truth.patch.map(p => p.kind === 'region' ? `a region of area ${exponent(p.area)} m²`
       : p.kind === 'segment' ? `a segment of length ${exponent(p.perimeter)} m` : 'a point');
   definitions('truth-values', [
+    ...(cast ? [[`A touches B: ${cast.truth.status}; as a part of the sweep, between`, cast.truth.fraction.join(' and ')]] : []),
     ['Signed distance is between', truth.signed_distance.join(' and ')],
     [`Normals (${truth.ties === 'unique' ? 'unique' : `ties: ${truth.ties}`})`, truth.normals.map(vector).join(', ')],
     ['Contact patch', truth.patch.map((p, i) => `${patches[i]} about ${vector(p.centroid)}`).join('; ')],
@@ -191,14 +235,18 @@ function controls() {
 byId('title').textContent = data.id;
 byId('description').textContent = data.description;
 byId('name-b').textContent = nameOfB(given.b);
-const distance = Number(truth.signed_distance[0]), failing = answers.filter(([, a]) => isFailure(a.score.outcome));
-byId('headline').textContent = `${distance < 0 ? `${exponent(-distance)} m deep` : `${exponent(distance)} m apart`}; ` +
-    (failing.length ? `${failing.length} of ${answers.length} candidates disagree: ` + outcomes.map(o => [o, failing.filter(([, a]) => a.score.outcome === o)])
-        .filter(([, of]) => of.length).map(([o, of]) => `${o} ${of.map(([name]) => name).join(', ')}`).join('; ') + '.' : 'all candidates agree.');
+const distance = Number(truth.signed_distance[0]), judged = cast ? castAnswers : answers;
+const failing = judged.filter(([, a]) => isFailure(a.score.outcome)), byOutcome = new Map();
+for (const [name, a] of failing) byOutcome.set(a.score.outcome, [...byOutcome.get(a.score.outcome) ?? [], name]);
+const fact = !cast ? `${exponent(Math.abs(distance))} m ${distance < 0 ? 'deep' : 'apart'}`
+    : {touch: `A touches B at ${plainNumber(touch, 4)} of its sweep`, never: 'A never touches B', 'from-start': 'A touches B before it moves'}[cast.truth.status] ?? 'No proof tells whether A touches B';
+byId('headline').textContent = `${fact}; ` + (failing.length ? `${failing.length} of ${judged.length} candidates disagree: ` +
+    [...byOutcome].sort(([a], [b]) => outcomes.indexOf(a) - outcomes.indexOf(b)).map(([outcome, names]) => `${outcome} ${names.join(', ')}`).join('; ') + '.' : judged.length ? 'all candidates agree.' : 'no candidate has such casts.');
 legend();
 truthValues();
 answerTables();
 configuration();
 controls();
+if (cast) sweepControls();
 aim(0);
 listSections();
