@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <map>
 #include <memory>
 
 #include "candidates/candidates.hpp"
@@ -16,17 +14,17 @@
 #include "reference/invalid_input.hpp"
 #include "reference/support.hpp"
 #include "reports/idioms/axes.hpp"
+#include "reports/idioms/case_texts.hpp"
 #include "reports/idioms/cases.hpp"
 #include "reports/replay.hpp"
 #include "reports/reproducer/fill_template.hpp"
 #include "reports/reproducer/programs.hpp"
-#include "reports/test_data/test_data.hpp"
 
 namespace touchstone {
 
 // Made by the build from the files tests.*.in of candidates/reproducers.
 extern const std::string_view tests_cpp_template, tests_mjs_template, tests_py_template,
-    tests_mjcf_template, tests_rs_template, callable_py_template, mjcf_template;
+    callable_py_template, mjcf_template;
 
 namespace {
 
@@ -41,8 +39,6 @@ struct Idiom {
 
 // Of these no program is taken: a model of MuJoCo asks nothing, and parry's crate is not npm's
 // package.
-const Language model_language = {"mjcf", "", tests_mjcf_template, NumberStyle::decimal};
-const Language rust = {"rust", "//", tests_rs_template, NumberStyle::decimal};
 constexpr std::string_view no_program = "@head@\n@question@@judgement@";
 
 bool has_program(const Language& language) {
@@ -70,8 +66,8 @@ const std::vector<Idiom>& all_idioms() {
       {"unittest", python, tests_py_template, "", {{"program", "cylinder_contacts_test"}}},
       {"doctest", cpp, tests_cpp_template, "@case@", {}},
       {"js", javascript, tests_mjs_template, "@question@", {{"program", "cylinder_contacts.test"}}},
-      {"rust", rust, tests_rs_template, "", {}},
-      {"mjcf", model_language, tests_mjcf_template, "", {}}};
+      {"rust", rust, rust.shared, "", {}},
+      {"mjcf", model_language, model_language.shared, "", {}}};
   return all;
 }
 
@@ -113,37 +109,6 @@ const Candidate* installed(const Program& program) {
   }
 }
 
-/// "RimFace" of "rim-face".
-std::string camel_case(std::string_view name) {
-  std::string result;
-  for (const std::string_view word : split(name, '-')) {
-    result += static_cast<char>(std::toupper(static_cast<unsigned char>(word[0])));
-    result += word.substr(1);
-  }
-  return result;
-}
-
-/// "rim_face" of "rim-face", as Python calls it.
-std::string with_underscores(std::string name) {
-  std::replace_if(
-      name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
-  return name;
-}
-
-/// A text as a comment, in lines of 100 columns.
-std::string comment(std::string_view remark, std::string_view text) {
-  constexpr std::size_t width = 100;
-  std::string result, line(remark);
-  for (const std::string_view word : split(text, ' ')) {
-    if (line.size() + 1 + word.size() > width) {
-      result += line + '\n';
-      line = remark;
-    }
-    line += ' ' + std::string(word);
-  }
-  return result + line;
-}
-
 /// Each line that is not empty, moved to the right.
 std::string indented(std::string_view text, std::string_view by) {
   std::string result;
@@ -154,67 +119,11 @@ std::string indented(std::string_view text, std::string_view by) {
   return result;
 }
 
-/// What the engine does in a case, as the end of a sentence.
-std::string_view deed(const std::string& verdict) {
-  static const std::map<std::string, std::string_view, std::less<>> deeds = {
-      {"missed", "finds no contact"},
-      {"phantom", "finds a contact where there is none"},
-      {"shallow", "finds too small a depth"},
-      {"overdeep", "finds too large a depth"},
-      {"wrong-normal", "answers a direction along which the bodies overlap more"},
-      {"not-finite", "answers what is no number"},
-      {"off-body", "answers a point that is on neither body"},
-      {"no-points", "answers no point"},
-      {"failed", "fails"}};
-  return deeds.at(verdict);
-}
-
-/// How an engine writes rotations and the axis of its cylinders.
-struct Habit {
-  char axis;
-  bool real_part_first;
-};
-
 Habit habit_of(const Program& program, const Tags& tags) {
   const auto has = [&](std::string_view tag) {
     return std::find(tags.begin(), tags.end(), tag) != tags.end();
   };
   return {has("x") ? 'x' : has("y") ? 'y' : 'z', program.title == "MuJoCo"};
-}
-
-/// Numbers as Rust wants them: 1.0 for 1.
-std::string with_points(std::string_view numbers) {
-  std::string result;
-  for (const std::string_view number : split(numbers, ' ')) {
-    const std::string_view digits = number.substr(0, number.find(','));
-    const bool is_whole = digits.find_first_not_of("-0123456789") == digits.npos && !digits.empty();
-    result += (result.empty() ? "" : " ") + std::string(digits) + (is_whole ? ".0" : "") +
-              std::string(number.substr(digits.size()));
-  }
-  return result;
-}
-
-std::string xml_escaped(std::string_view text) {
-  std::string result;
-  for (const char c : text) {
-    result += c == '"' ? "&quot;" : c == '<' ? "&lt;" : c == '&' ? "&amp;" : std::string(1, c);
-  }
-  return result;
-}
-
-/// The vector without components that are rounding errors, of a zero's sign.
-Vec3 without_noise(const Vec3& v, double zero) {
-  return v.unaryExpr([zero](double x) { return std::abs(x) < negligible_component ? zero : x; });
-}
-
-/// All optimal normals, their components with spaces.
-std::string normals_in_words(const oracle::Truth& truth) {
-  std::vector<double> numbers;
-  for (const oracle::OptimalNormal& optimal : truth.normals) {
-    const Vec3 n = without_noise(optimal.n, 0.0);
-    numbers.insert(numbers.end(), n.begin(), n.end());
-  }
-  return fmt::format("{}", fmt::join(numbers, " "));
 }
 
 /// Half of the side of a square about the origin, seen along z, that the bodies stand in, metres: a
@@ -231,81 +140,6 @@ double half_square(const std::vector<IdiomCase>& cases) {
     }
   }
   return std::exp2(std::ceil(std::log2(reach)));
-}
-
-/// What stands for numbers in the part that asks, where they are a case's.
-Texts names_in_javascript() {
-  Texts texts;
-  for (const std::string body : {"a", "b"}) {
-    const std::string Body = body == "a" ? "A" : "B", turn = "...orientation" + Body;
-    for (const char* name : {"_along_x", "_along_y"}) texts[body + name] = turn;
-    texts["xyzw_" + body] = turn;
-    texts["orientation_" + body] = fmt::format("orientation{0}[3], {1}.slice(0, 3)", Body, turn);
-    for (const char* name : {"position", "orientation"}) {
-      texts[fmt::format("{}_{}_xml", name, body)] = fmt::format("${{{}{}.join(' ')}}", name, Body);
-    }
-    texts["radius_" + body] = "${radius" + Body + "}";
-    texts["half_length_" + body] = "${halfLength" + Body + "}";
-    texts["convex_radius_" + body] = "convexRadius" + Body;
-  }
-  texts.merge(Texts{{"half_b_xml", "${halfB.join(' ')}"},
-                    {"plane_point", "...pointB"},
-                    {"plane_point_xml", "${pointB.join(' ')}"},
-                    {"plane_along_x", "...turnB"},
-                    {"plane_along_z_xml", "${turnB.join(' ')}"},
-                    {"threshold", "${threshold}"}});
-  return texts;
-}
-
-Texts case_texts(const IdiomCase& c, const std::string& engine, const Idiom& idiom, Habit habit) {
-  const PoseClass& of = c.identity.pose_class;
-  Texts texts = question_texts(renamed(c.configuration, habit.axis), NumberStyle::decimal);
-  if (&idiom.language == &rust) {
-    for (auto& [name, text] : texts) text = with_points(text);
-  }
-  std::string sentences = of.arrangement->description;
-  if (c.verdict != "right") sentences += fmt::format(" {} {}.", engine, deed(c.verdict));
-  sentences += fmt::format(" (Rounded from {}.)", to_string(c.identity));
-  const bool is_python = &idiom.language == &python;  // whose tests have docstrings
-  const bool is_model = &idiom.language == &model_language;
-  texts["sentences"] = is_model ? xml_escaped(sentences)
-                                : comment(is_python ? "       " : idiom.language.remark, sentences);
-  texts["name"] = fmt::format("{}/{}", pair_name(of.pair), of.arrangement->name);
-  texts["true_normals"] = normals_in_words(c.truth);
-  texts["title_as_name"] = with_underscores(of.arrangement->name);
-  std::string& vertices = texts["vertices_list"] = texts["vertices_b"];
-  std::replace(vertices.begin(), vertices.end(), '{', '[');
-  std::replace(vertices.begin(), vertices.end(), '}', ']');
-  texts["title"] = of.arrangement->name;
-  texts["test_name"] = camel_case(of.arrangement->name);
-  for (const std::string body : {"a", "b"}) {
-    texts["turn_" + body] = texts[(habit.real_part_first ? "orientation_" : "xyzw_") + body];
-  }
-  texts["true_distance"] = fmt::format("{}", nearest_to_middle(c.truth.signed_distance));
-  if (&idiom.language == &rust) texts["true_distance"] = with_points(texts["true_distance"]);
-  texts["tolerance"] = fmt::format("{:.2g}", c.tolerance);
-  texts["float_tolerance"] = fmt::format("{:.2g}", c.float_tolerance);
-  texts["verdict"] = c.verdict;
-  return texts;
-}
-
-/// What the tests of Jolt have beside that, whose judge is in each.
-Texts jolt_texts(const IdiomCase& c, const Bar& bar) {
-  Texts texts = truth_texts(c.configuration, c.truth, bar, NumberStyle::hexadecimal);
-  const Vec3 axis = -without_noise(renamed(c.truth.normals.front().n, 'y'), -0.0);
-  texts["true_axis_float"] =
-      fmt::format("{:#.9g}f, {:#.9g}f, {:#.9g}f", axis.x(), axis.y(), axis.z());
-  texts["allowed_float"] = fmt::format("{:#.2g}f", c.float_tolerance);
-  texts["allowed_words"] += ", and what rounding to float does";
-  const bool fails = c.verdict != "right" && c.verdict != "off-body";  // it looks at no points
-  texts["decorator"] = fails ? " * doctest::should_fail()" : "";
-  return texts;
-}
-
-/// How the bodies lie, as a tag of Jolt's tests.
-std::string_view tag_of_distance(const IdiomCase& c) {
-  const double distance = c.truth.signed_distance.midpoint();
-  return distance > c.tolerance ? "apart" : distance < -c.tolerance ? "overlapping" : "touching";
 }
 
 /// What writes the same file again.
@@ -412,7 +246,7 @@ std::string idiom_file(const IdiomRequest& request) {
   std::string shape;
   for (const IdiomCase& c : cases) {
     for (auto& [name, text] :
-         case_texts(c, fmt::format("{} {}", program.title, version), idiom, habit)) {
+         case_texts(c, fmt::format("{} {}", program.title, version), idiom.language, habit)) {
       texts[name] = text;
     }
     for (auto& [name, text] : npm_texts(program, program.engine, candidate, c.configuration)) {
