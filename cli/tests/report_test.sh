@@ -62,6 +62,8 @@ expect 0 'smaller changes' compare "$r" "$folder/worse.json" --max-error-factor 
 expect 0 '^bullet: better on cylinder-plane, 1 class, ' compare "$folder/worse.json" "$r"
 expect 0 '"fail_on":\["accuracy","time"\]' compare "$r" "$r" --json --fail-on time
 expect 2 "must have two releases in --candidates, as rapier@1.0,rapier@1.1" report --history rapier --candidates reference
+expect 2 "NEW is .ode.: must be a report.json, as OLD, or both must be releases of one engine" compare rapier@0.20 ode
+expect 2 "@dimforge/rapier3d-compat@99 is not in" compare rapier@99 rapier@0.21
 expect 2 '--fail-on is "speed": must be accuracy' compare "$r" "$r" --fail-on speed
 expect 2 '--max-error-factor is "0.5"' compare "$r" "$r" --max-error-factor 0.5
 expect 2 '--html' compare "$r" "$r" --html "$folder/none/compare.html"
