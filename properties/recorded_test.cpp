@@ -153,8 +153,8 @@ TEST(Recorded, IsTheFileThatSimulateWrote) {
     ASSERT_LT(at[pair_of(c)], recorded(pair_of(c)).size());
     const Recorded& r = recorded(pair_of(c))[at[pair_of(c)]++];
     EXPECT_EQ(rc::toString(r.configuration), rc::toString(c)) << line["id"];
-    EXPECT_EQ(r.scene, line["scene"]);
-    EXPECT_EQ(r.weight, line["weight"]);
+    EXPECT_EQ(line["scene"], r.scene);
+    EXPECT_EQ(line["weight"], r.weight);
   }
   for (const Pair pair : all_pairs) EXPECT_EQ(at[pair], recorded(pair).size());
 }

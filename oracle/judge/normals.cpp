@@ -26,7 +26,7 @@ std::optional<Vec3> nearest_within(const NormalFamily& family, const Vec3& n) {
   if (family.kind == NormalFamily::Kind::curve) return std::nullopt;
   const Vec3 across = n - n.dot(family.axis) * family.axis;
   if (across.isZero(0)) return std::nullopt;
-  const Vec3 member = across.normalized();
+  Vec3 member = across.normalized();
   if (family.kind == NormalFamily::Kind::circle) return member;
   const Vec3 &first = family.ends[0], &last = family.ends[1];
   const auto beyond = [&](const Vec3& from, const Vec3& to) {

@@ -140,7 +140,7 @@ struct MixedPoses {
 
 /// Each iteration answers all poses; the time is divided by their number.
 template <class Ask>
-void add_mixed_question(const std::string& name, Ask ask) {
+void add_mixed_question(const std::string& name, const Ask& ask) {
   benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& state) {
     for (auto _ : state) {
       ask();
@@ -160,7 +160,7 @@ void add_mixed_questions(const std::string& name, const Cylinder& a, const Other
   const auto distances = std::make_shared<std::vector<Distance>>(poses);
   const auto contacts = std::make_shared<std::vector<Manifold>>(poses);
   const auto overlap = std::shared_ptr<bool[]>(new bool[poses]);
-  const auto one_by_one = [=](const char* question, auto ask) {
+  const auto one_by_one = [=](const char* question, const auto& ask) {
     add_mixed_question(name + question + "/single", [=] {
       for (std::size_t i = 0; i < poses; ++i) ask(i, as_asked(poses_a[i]), as_asked(poses_b[i]));
     });

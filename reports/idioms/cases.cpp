@@ -55,7 +55,7 @@ class Chooser {
       if (!drawn || meeting(*drawn).kind == Meeting::Kind::near) continue;
       if (!first) first = drawn;
       if (drawn->verdict == "right") continue;
-      const IdiomCase small = rounded(*drawn);
+      IdiomCase small = rounded(*drawn);
       if (in_float(small.configuration)) return small;
       if (!wrong) wrong = small;
     }

@@ -173,7 +173,7 @@ bool read_friction(const boost::property_tree::ptree& gazebo, const std::string&
   }
   for (Link& link : result.links) {
     if (link.name != name) continue;
-    for (LinkShape& s : link.shapes) s.friction = *mu;
+    for (LinkShape& s : link.shapes) s.friction = mu;
   }
   return true;
 }
