@@ -323,12 +323,16 @@ ConvexTables::ConvexTables(const std::vector<Vec3>& points, const std::vector<Co
       face_count(static_cast<int>(given.size())),
       face_middles(given.size()) {
   for (std::size_t i = 0; i < 4 * vertices.size(); ++i) {
-    vertices[i / 4].set(i % 4, points[std::min(i, points.size() - 1)]);
+    const Vec3& v = points[std::min(i, points.size() - 1)];
+    Points& four = vertices[i / 4];
+    four.x[i % 4] = v.x(), four.y[i % 4] = v.y(), four.z[i % 4] = v.z();
   }
   const double part = room_for_differences(points);
   for (std::size_t i = 0; i < 4 * faces.size(); ++i) {
     if (i < given.size()) face_normals.push_back(normal_of(points, given[i], part));
-    faces[i / 4].normal.set(i % 4, face_normals.back());
+    const Vec3& n = face_normals.back();
+    Points& four = faces[i / 4].normal;
+    four.x[i % 4] = n.x(), four.y[i % 4] = n.y(), four.z[i % 4] = n.z();
   }
   std::vector<std::vector<FaceEdge>> of_face(given.size());
   std::vector<std::vector<int>> edges_at(points.size()), facets_at(points.size());
@@ -338,8 +342,8 @@ ConvexTables::ConvexTables(const std::vector<Vec3>& points, const std::vector<Co
     const Vec3 middle = (left + right + along.cross(left - right)).normalized();
     const int index = static_cast<int>(edges.size());
     edges.push_back({{e.vertices, along}, middle, 0, e.faces[0], e.faces[1]});
-    of_face[e.faces[0]].push_back({index, e.faces[1], along.cross(left), 0});
-    of_face[e.faces[1]].push_back({index, e.faces[0], right.cross(along), 0});
+    of_face[e.faces[0]].push_back({index, e.faces[1]});
+    of_face[e.faces[1]].push_back({index, e.faces[0]});
     for (const int v : e.vertices) edges_at[v].push_back(index);
   }
   face_edges = lists_of(of_face);
@@ -384,14 +388,6 @@ void ConvexTables::measure() {
   for (Edge& e : edges) {
     place(e);
     e.reach = support(e.middle);
-  }
-  for (FaceEdge& e : face_edges.items) e.offset = e.outward.dot(edges[e.edge].from);
-  lines.resize((edges.size() + 3) / 4);
-  for (std::size_t i = 0; i < 4 * lines.size(); ++i) {
-    const Edge& e = edges[std::min(i, edges.size() - 1)];
-    Lines& four = lines[i / 4];
-    four.along.set(i % 4, e.along), four.moment.set(i % 4, e.from.cross(e.along));
-    four.left.set(i % 4, face_normal(e.left)), four.right.set(i % 4, face_normal(e.right));
   }
   for (Segment& s : sides) place(s);
   for (Facet& f : facets) f.offset = support(f.normal);

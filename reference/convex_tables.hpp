@@ -21,7 +21,6 @@ struct ConvexTables {
   using Four = Eigen::Array4d;
   struct Points {
     Four x, y, z;
-    void set(std::size_t i, const Vec3& p) { x[i] = p.x(), y[i] = p.y(), z[i] = p.z(); }
     Four along(const Vec3& n) const { return x * n.x() + y * n.y() + z * n.z(); }
   };
   struct Planes {
@@ -43,15 +42,8 @@ struct ConvexTables {
     double reach;  ///< the body's support along the middle
     int left, right;
   };
-  /// Four edges as lines, for what is asked of all of them; of the last ones the last is repeated.
-  struct Lines {
-    Points along, moment;  ///< the moment is from × along
-    Points left, right;    ///< normals of the faces beside it
-  };
   struct FaceEdge {
     int edge, other;  ///< and the face beyond it
-    Vec3 outward;     ///< in the face's plane, across the edge
-    double offset;    ///< of the edge, along it
   };
   /// Faces that lie in one plane but for the rounding of their vertices: what a cap stands on.
   struct Facet {
@@ -76,7 +68,6 @@ struct ConvexTables {
   int face_count;
   std::vector<Vec3> face_middles;  ///< of their corners
   std::vector<Edge> edges;
-  std::vector<Lines> lines;
   Lists<FaceEdge> face_edges;
   std::vector<Facet> facets;
   /// Sides of facets: of edges between the same two that lie in one line but for rounding only one.
@@ -99,16 +90,18 @@ struct ConvexTables {
   const Vec3& vertex(int i) const { return places[static_cast<std::size_t>(i)]; }
   /// The first of several.
   int farthest_vertex(const Vec3& n) const { return first_at(n, support(n)); }
-  /// The first vertex that is as far along n as the body is.
+  /// The first vertex that is so far along n.
   int first_at(const Vec3& n, double far_along) const {
-    std::size_t i = 0;
-    Four along = vertices[0].along(n);
-    while (i + 1 < vertices.size() && !(along.maxCoeff() >= far_along)) {
-      along = vertices[++i].along(n);
+    for (std::size_t i = 0; i + 1 < vertices.size(); ++i) {
+      const Four along = vertices[i].along(n);
+      for (int k = 0; k < 4; ++k) {
+        if (along[k] == far_along) return 4 * static_cast<int>(i) + k;
+      }
     }
-    int k = 3;  // branch-free: the winner is unpredictable
-    for (int j = 2; j >= 0; --j) k = along[j] >= far_along ? j : k;
-    return 4 * static_cast<int>(i) + k;
+    const Four along = vertices.back().along(n);
+    int k = 0;
+    while (k < 3 && !(along[k] == far_along)) ++k;
+    return 4 * static_cast<int>(vertices.size() - 1) + k;
   }
   /// How far a point lies above a face's plane; with the bits of `heights`.
   double height(const Vec3& p, int face) const {

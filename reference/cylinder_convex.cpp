@@ -5,7 +5,7 @@
 #include <limits>
 #include <optional>
 
-#include "convex_proofs.hpp"
+#include "convex_tables.hpp"
 #include "curves.hpp"
 #include "deep_normals.hpp"
 #include "pair.hpp"
@@ -20,9 +20,8 @@
 //                    along the edge; of edges and rims the likely one is tried first, and mostly
 //                    proves itself
 //
-// First comes what is likely, because of the best face or cap, or as seen along the axis. Unless
-// that proves itself, of faces, edges and vertices those are tried that a point of A leaves open:
-// with n between the normals n1 and n2 of an edge's faces, n = k1 n1 + k2 n2 with k1, k2 >= 0 and
+// Faces are tried all. Of edges and vertices only those that a point of A leaves open: with n
+// between the normals n1 and n2 of an edge's faces, n = k1 n1 + k2 n2 with k1, k2 >= 0 and
 // k1 + k2 >= 1, so that g(n) is no more than k1 s1 + k2 s2, the heights of the point above the
 // faces; likewise at a vertex (proofs.md, "Convex bodies"). A point where A and B are deepest in
 // each other is far below all other faces, and few edges are left.
@@ -30,6 +29,17 @@
 namespace touchstone {
 namespace {
 
+struct CylinderInHullFrame {
+  const ConvexTables& b;
+  double r, h;
+  Vec3 d;          ///< the cylinder's centre
+  Vec3 u;          ///< its axis
+  double lengths;  ///< all together
+
+  double gap(const Vec3& n) const {
+    return d.dot(n) - h * std::abs(u.dot(n)) - r * u.cross(n).norm() - b.support(n);
+  }
+};
 using InHull = CylinderInHullFrame;
 
 StageResult at(double gap, const Vec3& n, bool is_proven = false) {
@@ -63,6 +73,7 @@ struct Meeting {
   StageResult found;
   Kind kind;
   int feature;  ///< its index
+  Vec3 place;   ///< of it, where the bodies meet
 
   void improve(const Meeting& later) {
     if (later.found.gap > found.gap) *this = later;
@@ -81,80 +92,161 @@ Meeting cap(const InHull& p) {
   }
   const double low = lowest.minCoeff(), high = highest.maxCoeff(), centre = p.d.dot(p.u);
   const double above = centre - p.h - high, below = low - centre - p.h;
-  const double side = std::copysign(1, above - below);
-  const Vec3 n = side * p.u;
-  const double gap = std::max(above, below), delta = depth(gap);
-  const int vertex = p.b.first_at(n, above >= below ? high : -low);
-  const Vec3 arm = p.b.vertex(vertex) - p.d, across = arm - arm.dot(p.u) * p.u;
+  const bool is_above = above >= below;
+  const double gap = is_above ? above : below, delta = depth(gap);
+  const int vertex = p.b.first_at(p.u, is_above ? high : low);
+  const Vec3 place = p.b.vertex(vertex), arm = place - p.d;
+  const Vec3 across = arm - arm.dot(p.u) * p.u;
   const double room = p.r - delta;
-  const bool is_proven = (delta <= p.h) & (room >= 0) & (across.squaredNorm() <= room * room);
-  return {at(gap, n, is_proven), Kind::vertex_of_cap, vertex};
+  const bool is_proven = delta <= p.h && room >= 0 && across.squaredNorm() <= room * room;
+  return {at(gap, is_above ? p.u : Vec3(-p.u), is_proven), Kind::vertex_of_cap, vertex, place};
 }
 
-double face_gap(const InHull& p, int face) {
-  const Vec3& n = p.b.face_normal(face);
-  return p.b.height(p.d, face) - p.h * std::abs(n.dot(p.u)) - p.r * n.cross(p.u).norm();
-}
-Meeting at_face(const InHull& p, int face) {
-  return {at(face_gap(p, face), p.b.face_normal(face)), Kind::face, face};
-}
-
-/// The best of all faces.
-Meeting best_face(const InHull& p) {
-  int found = 0;
-  double best = face_gap(p, 0);
-  for (int f = 1; f < p.b.face_count; ++f) {
-    const double gap = face_gap(p, f);
-    if (gap > best) best = gap, found = f;
-  }
-  return at_face(p, found);
-}
-
-/// Finds the largest of many numbers, four at once and without a branch: the winner is
-/// unpredictable. Of those that differ by less than a billionth of `scale` it is the first one, as
-/// digits beyond that hold the index.
-class LikelyBest {
- public:
+/// The best face, if it is better than that.
+Meeting face(const InHull& p, double best) {
   using Four = ConvexTables::Four;
-  explicit LikelyBest(double scale)
-      : rounder_(0x1p22 * scale), step_(0x1p-44 * scale), steps_(0x1p44 / scale) {}
-
-  void offer(std::size_t fourth, const Four& x) {
-    const double index = step_ * static_cast<double>(fourth);
-    most_ = most_.max(((x + rounder_) - rounder_) - index);
+  int found = -1;
+  for (std::size_t i = 0; i < p.b.faces.size(); ++i) {
+    const ConvexTables::Planes& faces = p.b.faces[i];
+    const ConvexTables::Points& n = faces.normal;
+    const Four beside_caps = faces.heights(p.d) - p.h * n.along(p.u).abs();
+    if (beside_caps.maxCoeff() <= best) continue;
+    const Four x = p.u.y() * n.z - p.u.z() * n.y, y = p.u.z() * n.x - p.u.x() * n.z;
+    const Four z = p.u.x() * n.y - p.u.y() * n.x;
+    const Four gaps = beside_caps - p.r * (x * x + y * y + z * z).sqrt();
+    for (int k = 0; k < 4; ++k) {  // branch-free: the winner is unpredictable
+      const bool is_better = gaps[k] > best;
+      best = is_better ? gaps[k] : best;
+      found = is_better ? 4 * static_cast<int>(i) + k : found;
+    }
   }
-  struct Found {
-    int index;
-    double number;
-  };
-  Found found() const {
-    const int low = most_[1] > most_[0], high = 2 + (most_[3] > most_[2]);
-    const int k = low + (most_[high] > most_[low]) * (high - low);
-    const double most = most_[k], number = (most + rounder_) - rounder_;
-    return {4 * static_cast<int>((number - most) * steps_ + 0.5) + k, number};
+  if (found < 0) return {};
+  found = std::min(found, p.b.face_count - 1);
+  return {at(best, p.b.face_normal(found)), Kind::face, found,
+          p.b.face_middles[static_cast<std::size_t>(found)]};
+}
+
+/// Of what is left of a unit vector without its part along another one, rounding counts where it is
+/// shorter than this.
+constexpr double few_digits = 0.1;
+
+/// A's point that faces the hull along n; of a cap or generator that lies across n, the one that is
+/// nearest to x.
+Vec3 point_facing(const InHull& p, const Vec3& n, const Vec3& x) {
+  constexpr double flat = 1e-15;
+  const double along = n.dot(p.u);
+  const double height = std::abs(along) > flat ? -std::copysign(p.h, along)
+                                               : std::clamp((x - p.d).dot(p.u), -p.h, p.h);
+  const Vec3 centre = p.d + height * p.u;
+  Vec3 outward = n - along * p.u;
+  const double sine = outward.norm();
+  if (sine >= few_digits) return centre - p.r / sine * outward;
+  if (sine > flat) {  // on the rim or side, unless it is only what rounding leaves along the axis
+    outward /= sine;
+    outward -= outward.dot(p.u) * p.u;
+    const double length = outward.norm();
+    if (length > 0.5) return centre - p.r / length * outward;
+  }
+  const Vec3 arm = x - p.d, beside = arm - arm.dot(p.u) * p.u;
+  return centre + std::min(1.0, p.r / beside.norm()) * beside;
+}
+
+/// Which edge of a face a point is the farthest beyond, seen along its normal, and how far
+/// (negative within all of them).
+struct BeyondEdge {
+  int edge = 0;
+  double by = -std::numeric_limits<double>::infinity();
+
+  BeyondEdge(const InHull& p, int face, const Vec3& x) {
+    const Vec3& n = p.b.face_normal(face);
+    for (const ConvexTables::FaceEdge& e : p.b.face_edges.of(face)) {
+      const ConvexTables::Edge& other = p.b.edges[e.edge];
+      const double outward = other.along.cross(n).dot(x - other.from);
+      const double beyond = other.left == face ? outward : -outward;
+      if (beyond > by) edge = e.edge, by = beyond;
+    }
+  }
+};
+
+/// A's point that faces the face lies on it, its depth away from the edges, and A is that thick:
+/// with a disc about that point no less than the depth leads out (proofs.md, "Convex bodies"),
+/// whether or not there is anything of the hull behind the face.
+bool is_proven_at_face(const InHull& p, double gap, const BeyondEdge& nearest) {
+  const double delta = depth(gap);
+  return delta <= std::min(p.r, p.h) && nearest.by <= -delta;
+}
+
+/// Does a point lie so deep in A that a ball of this radius about it does, too? Then no normal of
+/// bodies that share it has less depth.
+bool holds_ball(const InHull& p, const Vec3& x, double depth) {
+  const Vec3 arm = p.d - x;
+  const double height = arm.dot(p.u), room = p.r - depth;
+  const Vec3 across = arm - height * p.u;
+  return std::abs(height) <= p.h - depth && room >= 0 && across.squaredNorm() <= room * room;
+}
+
+/// A's point that faces a face, and how high it lies above that.
+struct FacingPoint {
+  Vec3 x;
+  double height;
+
+  FacingPoint(const InHull& p, int face)
+      : x(point_facing(p, p.b.face_normal(face), p.b.face_middles[static_cast<std::size_t>(face)])),
+        height(p.b.height(x, face)) {}
+};
+
+/// The edges that A's point x leaves open for a gap above the best one.
+class OpenEdges {
+ public:
+  /// All of them.
+  explicit OpenEdges(const InHull& p) : p_(p) {}
+  OpenEdges(const InHull& p, const Vec3& x, double best)
+      : p_(p), x_(x), is_excluding_(true), margin_(rounding_part / 2 * p.lengths) {
+    closed_ = std::min(best, 0.0) - margin_;
+    level_ = best <= 0 ? best + margin_ / 2 : closed_;
+  }
+
+  /// Calls visit(edge, face, other), indices of an edge and the faces beside it, until it returns
+  /// false.
+  template <class Visit>
+  void visit(Visit visit) const {
+    if (!is_excluding_) {
+      for (std::size_t i = 0; i < p_.b.edges.size(); ++i) {
+        if (!visit(static_cast<int>(i), p_.b.edges[i].left, p_.b.edges[i].right)) return;
+      }
+      return;
+    }
+    for (std::size_t i = 0; i < p_.b.faces.size(); ++i) {
+      const ConvexTables::Four heights = p_.b.faces[i].heights(x_);
+      if (heights.maxCoeff() <= closed_) continue;
+      for (int k = 0; k < 4; ++k) {
+        const int face = 4 * static_cast<int>(i) + k;
+        if (heights[k] <= closed_ || face >= p_.b.face_count) continue;
+        for (const ConvexTables::FaceEdge& e : p_.b.face_edges.of(face)) {
+          const bool is_other_closed = p_.b.height(x_, e.other) <= closed_;
+          if (is_other_closed ? heights[k] <= level_ : e.other < face) continue;
+          if (!visit(e.edge, face, e.other)) return;
+        }
+      }
+    }
+  }
+  /// Whether a point of A that faces a face leaves the edge to another one open; and the point that
+  /// faces that one, too: each may exclude the normals up to the middle.
+  bool leaves_open(const ConvexTables::Edge& e, const FacingPoint& x, int other) const {
+    if (!(x.height <= level_)) return true;
+    if (p_.b.height(x.x, other) <= closed_) return false;
+    const auto excludes_half = [&](const FacingPoint& y) {
+      return y.height <= level_ && e.middle.dot(y.x - e.from) <= closed_;
+    };
+    return !(excludes_half(x) && excludes_half(FacingPoint(p_, other)));
   }
 
  private:
-  double rounder_, step_, steps_;
-  Four most_ = Four::Constant(-std::numeric_limits<double>::infinity());
+  const InHull& p_;
+  Vec3 x_ = Vec3::Zero();
+  bool is_excluding_ = false;
+  double margin_ = 0, closed_ = 0, level_ = 0;
 };
-
-/// One of those that are nearly the best, if it may be better than that: of faces along the axis
-/// half of the digits are lost.
-Meeting likely_face(const InHull& p, double best) {
-  using Four = ConvexTables::Four;
-  LikelyBest likely(p.lengths);
-  for (std::size_t i = 0; i < p.b.faces.size(); ++i) {
-    const ConvexTables::Planes& faces = p.b.faces[i];
-    const Four cosine = faces.normal.along(p.u);
-    const Four sine = (1 - cosine * cosine).max(0).sqrt();
-    likely.offer(i, faces.heights(p.d) - p.h * cosine.abs() - p.r * sine);
-  }
-  constexpr double lost = 1e-7;
-  const LikelyBest::Found found = likely.found();
-  if (found.number + lost * p.lengths <= best) return {};
-  return at_face(p, std::min(found.index, p.b.face_count - 1));
-}
 
 /// An edge and the cylinder, seen along the edge: its axis is a line, each cap an ellipse.
 struct SeenAlongEdge {
@@ -355,70 +447,36 @@ int highest_edge(const InHull& p, int vertex, const Vec3& way, const Vec3& n) {
   return found;
 }
 
-/// What the axis passes beside, seen along an edge: that edge, or a vertex at its end.
-Meeting beside_side(const InHull& p, const SeenAlongEdge& seen, int edge, double best) {
-  const double along = seen.on_edge(), length = seen.edge.length;
-  if (along >= 0 && along <= length) {
-    return {side_and_edge(p, seen, best), Kind::edge, edge};
-  }
-  const int vertex = seen.edge.vertices[along < 0 ? 0 : 1];
-  const Vec3 to_other = (along < 0 ? length : -length) * seen.edge.along;
-  return {side_or_rim_and_vertex(p, p.b.vertex(vertex), to_other, best), Kind::vertex_of_side,
-          vertex};
-}
-
-/// Seen along the axis the hull is a polygon. The axis is beside the edge that it lies the farthest
-/// beyond, or, past that edge's end, beside the vertex there.
-Meeting likely_beside_side(const InHull& p, double best) {
-  using Four = ConvexTables::Four;
-  constexpr double noise = 1e-30, none = 1e60;
-  const Vec3 turned = p.u.cross(p.d);
-  LikelyBest farthest(p.lengths);
-  for (std::size_t i = 0; i < p.b.lines.size(); ++i) {
-    const ConvexTables::Lines& edges = p.b.lines[i];
-    const Four left = edges.left.along(p.u), right = edges.right.along(p.u);
-    const Four cosine = edges.along.along(p.u), falls = left - right;
-    const Four sine = (1 - cosine * cosine).max(noise).sqrt() * (falls.abs() + noise);
-    const Four beyond = edges.along.along(turned) - edges.moment.along(p.u);
-    farthest.offer(i, (beyond * falls / sine - none * (left * right).max(0)).max(-p.lengths));
-  }
-  const LikelyBest::Found found = farthest.found();
-  if (!(found.number - p.r > best)) return {};
-  const int edge = std::min(found.index, static_cast<int>(p.b.edges.size()) - 1);
-  const SeenAlongEdge seen(p, p.b.edges[static_cast<std::size_t>(edge)]);
-  if (!seen.is_crossed) return {};
-  return beside_side(p, seen, edge, best);
-}
-
 /// Where the best normal is not proven, because the place at which the bodies would meet lies
 /// beyond an edge or a rim: what meets there instead, if that is better.
 Meeting likely(const InHull& p, const Meeting& best, int beyond) {
   const Vec3 n = best.found.normal();
+  const auto side_and_vertex = [&](int vertex, const Vec3& to_other) -> Meeting {
+    const Vec3& v = p.b.vertex(vertex);
+    return {side_or_rim_and_vertex(p, v, to_other, best.found.gap), Kind::vertex_of_side, vertex,
+            v};
+  };
   int edge = beyond;
   double end = std::copysign(1, n.dot(p.u));
   bool may_be_side = true;
   switch (best.kind) {
     case Kind::vertex_of_cap: {
-      const Vec3& v = p.b.vertex(best.feature);
-      const Vec3 arm = p.d - v, across = arm - arm.dot(p.u) * p.u;
+      const Vec3 arm = p.d - best.place, across = arm - arm.dot(p.u) * p.u;
       edge = highest_edge(p, best.feature, across, n);
       if (edge >= 0 && across.squaredNorm() <= p.r * p.r) {
         const ConvexTables::Edge& e = p.b.edges[static_cast<std::size_t>(edge)];
         const double to_other = e.vertices[0] == best.feature ? e.length : -e.length;
-        return {side_or_rim_and_vertex(p, v, to_other * e.along, best.found.gap),
-                Kind::vertex_of_side, best.feature};
+        return side_and_vertex(best.feature, to_other * e.along);
       }
       break;
     }
     case Kind::face:
       break;
     case Kind::edge:
-      may_be_side = false;
-      edge = best.feature;
-      break;
     case Kind::vertex_of_side:
-      end = std::copysign(1, (p.d - p.b.vertex(best.feature)).dot(p.u));
-      edge = highest_edge(p, best.feature, end * p.u, n);
+      end = std::copysign(1, (p.d - best.place).dot(p.u));
+      edge = best.kind == Kind::edge ? best.feature : highest_edge(p, best.feature, end * p.u, n);
+      may_be_side = best.kind != Kind::edge;
       break;
     case Kind::edge_of_rim:
       return {};
@@ -426,39 +484,17 @@ Meeting likely(const InHull& p, const Meeting& best, int beyond) {
   if (edge < 0) return {};
   const SeenAlongEdge seen(p, p.b.edges[static_cast<std::size_t>(edge)]);
   if (!seen.is_crossed) return {};
+  const double along = seen.on_edge();
   if (may_be_side && std::abs(seen.on_axis()) <= p.h) {
-    return beside_side(p, seen, edge, best.found.gap);
+    if (along >= 0 && along <= seen.edge.length) {
+      return {side_and_edge(p, seen, best.found.gap), Kind::edge, edge, seen.nearest_to_axis()};
+    }
+    const Vec3 to_other = seen.edge.length * seen.edge.along;
+    return along < 0 ? side_and_vertex(seen.edge.vertices[0], to_other)
+                     : side_and_vertex(seen.edge.vertices[1], -to_other);
   }
-  if (!may_be_side) end = std::copysign(1, (p.d - seen.nearest_to_axis()).dot(p.u));
-  return {rim_and_edge(p, seen, end, best.found.gap, nullptr), Kind::edge_of_rim, edge};
-}
-/// Puts that in the place of the best one, as long as it is better. Returns whether the search is
-/// over.
-bool try_likely(const InHull& p, EarlyExit exit, Meeting& best, int beyond) {
-  // As deep in each other as this, bodies hardly ever come free where a rim meets an edge.
-  constexpr double deep = 0.5;
-  for (int i = 0; i < 3 && depth(best.found.gap) < deep * std::min(p.r, p.h); ++i) {
-    const Meeting next = likely(p, best, beyond);
-    if (!(next.found.gap > best.found.gap)) return false;
-    best = next;
-    if (exit.ends_with(best.found)) return true;
-  }
-  return false;
-}
-
-/// Where on the hull the bodies meet.
-Vec3 place_of(const InHull& p, const Meeting& best) {
-  const auto i = static_cast<std::size_t>(best.feature);
-  switch (best.kind) {
-    case Kind::face:
-      return p.b.face_middles[i];
-    case Kind::edge:
-      return SeenAlongEdge(p, p.b.edges[i]).nearest_to_axis();
-    case Kind::edge_of_rim:
-      return p.b.edges[i].from;
-    default:
-      return p.b.vertex(best.feature);
-  }
+  return {rim_and_edge(p, seen, end, best.found.gap, nullptr), Kind::edge_of_rim, edge,
+          seen.edge.from};
 }
 
 /// Vertices that were tried, each once.
@@ -477,52 +513,67 @@ class Tried {
   std::array<std::uint64_t, Convex::max_vertices / 64 + 1> bits_;
 };
 
-/// Tries all that A's point where the bodies meet leaves open. Out of line: mostly it is not
-/// needed.
-[[gnu::noinline]] StageResult search_open_edges(const InHull& p, EarlyExit exit, Meeting best,
-                                                double* highest) {
+StageResult largest_gap(const InHull& p, EarlyExit exit, double* highest) {
+  Meeting best = cap(p);
   const auto is_over = [&] { return exit.ends_with(best.found); };
+  if (is_over()) return best.found;
+  best.improve(face(p, best.found.gap));
+  if (is_over()) return best.found;
+  // As deep in each other as this, bodies hardly ever come free where a rim meets an edge.
+  constexpr double deep = 0.5;
+  const auto try_likely = [&](int beyond) {
+    for (int i = 0; i < 3 && depth(best.found.gap) < deep * std::min(p.r, p.h); ++i) {
+      const Meeting next = likely(p, best, beyond);
+      if (!(next.found.gap > best.found.gap)) return false;
+      best = next;
+      if (is_over()) return true;
+    }
+    return false;
+  };
+  if (exit.trusts_proofs) {
+    int beyond = -1;
+    if (best.kind == Kind::face) {
+      const BeyondEdge edge(p, best.feature, point_facing(p, best.found.normal(), best.place));
+      if (is_proven_at_face(p, best.found.gap, edge)) return best.found;
+      beyond = edge.edge;
+    }
+    if (try_likely(beyond)) return best.found;
+  }
+
   const auto open_edges = [&] {
     if (!exit.trusts_proofs) return OpenEdges(p);
-    return OpenEdges(p, point_facing(p, best.found.normal(), place_of(p, best)), best.found.gap);
+    return OpenEdges(p, point_facing(p, best.found.normal(), best.place), best.found.gap);
   };
-  const OpenEdges open = open_edges();
-  if (exit.trusts_proofs) {
-    open.visit_faces([&](int face, double) {
-      best.improve(at_face(p, face));
-      return true;
-    });
-  }
   Tried vertices(p);
   bool is_any = false;
-  open.visit([&](int edge, int, int) {
+  open_edges().visit([&](int edge, int, int) {
     is_any = true;
     const ConvexTables::Edge& e = p.b.edges[static_cast<std::size_t>(edge)];
     if (may_cross_side(p, e, best.found.gap)) {
-      best.improve({side_and_edge(p, SeenAlongEdge(p, e), best.found.gap), Kind::edge, edge});
+      const SeenAlongEdge seen(p, e);
+      const StageResult found = side_and_edge(p, seen, best.found.gap);
+      if (found.gap > best.found.gap) best = {found, Kind::edge, edge, seen.nearest_to_axis()};
     }
     for (int end = 0; end < 2; ++end) {
       const int i = e.vertices[end];
       if (!vertices.is_new(i)) continue;
       const Vec3 &v = p.b.vertex(i), &other = p.b.vertex(e.vertices[1 - end]);
-      best.improve(
-          {side_or_rim_and_vertex(p, v, other - v, best.found.gap), Kind::vertex_of_side, i});
+      const StageResult found = side_or_rim_and_vertex(p, v, other - v, best.found.gap);
+      if (found.gap > best.found.gap) best = {found, Kind::vertex_of_side, i, v};
     }
     return !is_over();
   });
   if (!is_any || is_over()) return best.found;
-  if (exit.trusts_proofs && best.kind != Kind::face && try_likely(p, exit, best, -1)) {
-    return best.found;
-  }
+  if (exit.trusts_proofs && best.kind != Kind::face && try_likely(-1)) return best.found;
   // Here A's point that faces each face excludes most of its edges.
   const OpenEdges left = open_edges();
-  int at = -1;
+  int at_face = -1;
   std::optional<FacingPoint> x;
   left.visit([&](int edge, int face, int other) {
     const ConvexTables::Edge& e = p.b.edges[static_cast<std::size_t>(edge)];
     if (exit.trusts_proofs) {
-      if (face != at) {
-        at = face;
+      if (face != at_face) {
+        at_face = face;
         x.emplace(p, face);
       }
       if (!left.leaves_open(e, *x, other)) return true;
@@ -535,32 +586,6 @@ class Tried {
     return !is_over();
   });
   return best.found;
-}
-
-StageResult largest_gap(const InHull& p, EarlyExit exit, double* highest) {
-  Meeting best = cap(p);
-  if (exit.ends_with(best.found)) return best.found;
-  best.improve(exit.trusts_proofs ? likely_face(p, best.found.gap) : best_face(p));
-  if (exit.ends_with(best.found)) return best.found;
-  if (exit.trusts_proofs) {
-    int beyond = -1;
-    if (best.kind == Kind::face) {
-      const BeyondEdge edge(p, best.feature,
-                            point_facing(p, best.found.normal(), place_of(p, best)));
-      if (is_proven_at_face(p, best.found.gap, edge)) return best.found;
-      beyond = edge.edge;
-    }
-    if (try_likely(p, exit, best, beyond)) return best.found;
-    constexpr std::size_t few = 8;  // else they take longer than what they save
-    if (best.kind != Kind::edge_of_rim && p.b.lines.size() <= few) {
-      const Meeting beside = likely_beside_side(p, best.found.gap);
-      if (beside.found.gap > best.found.gap) {
-        best = beside;
-        if (exit.ends_with(best.found) || try_likely(p, exit, best, -1)) return best.found;
-      }
-    }
-  }
-  return search_open_edges(p, exit, best, highest);
 }
 
 CertifiedDistance find_largest(const PosedCylinder& a, const PosedConvex& b, EarlyExit exit) {
