@@ -14,6 +14,8 @@ ELSEWHERE = {
     "python3 oracle/forge_certificates.py": "forge_certificates",
     "apt-get ": "nothing: it needs the network",
     "./touchstone report --seed 1 --count 20 --group everyday": "engine_table_test.py, a long test",
+    "./touchstone report --history": "candidates/npm/history_test.sh, a long test",
+    "./touchstone compare rapier@": "candidates/npm/history_test.sh, a long test",
     "cd out/render": "simulation/scenes/povray_test.cpp, which writes what POV-Ray reads",
 }
 
