@@ -24,6 +24,8 @@ new_machine() {
   mkdir -p "$folder/a b" "$tools"
   : >"$calls"
   cp "$source_folder/touchstone" "$source_folder"/packages*.txt "$folder/a b/"
+  mkdir -p "$folder/a b/candidates/npm"
+  cp "$source_folder/candidates/npm/releases.sh" "$folder/a b/candidates/npm/"
   local tool
   for tool in $machine_tools; do ln -s "$(command -v "$tool")" "$tools/$tool"; done
   export CALLS=$calls MISSING=none USER_ID=0 APT_CODE=0 BUILD_CODE=0 SECONDS_OF_WORK=0
