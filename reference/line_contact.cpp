@@ -140,7 +140,6 @@ void segment_on_flat(const Manifold& to, const FacingFeature& segment, const Fac
   if (part < 1) (at_lo < at_hi ? range.hi = range.lo + kept : range.lo = range.hi - kept);
   const auto add_at = [&](double t) {
     Vec2 p = l.at(t);
-    const double on_line = l.height + t * l.rise, on_flat = surface.at(p);
     if (grazed) {
       const double across = grazed->across.dot(p) - grazed->middle;
       const double off = across - within(across, -grazed->half_width, grazed->half_width);
@@ -149,6 +148,7 @@ void segment_on_flat(const Manifold& to, const FacingFeature& segment, const Fac
       }
     }
     if (grazes_polygon) p = moved_onto(CarriedCorners(plane, flat, Vec2::Zero()), l.radius, p);
+    const double on_line = l.height + t * l.rise, on_flat = surface.at(p);
     segment_is_a ? plane.add(p, on_line, on_flat) : plane.add(p, on_flat, on_line);
   };
   // Ends that hardly overlap are one point, whichever side rounding puts them on.

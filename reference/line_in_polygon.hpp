@@ -65,10 +65,11 @@ inline Vec2 moved_onto(const CarriedCorners& corners, double radius, Vec2 place)
   Vec2 p = corners.corner(corners.count() - 1);
   for (int i = 0; i < corners.count(); ++i) {
     const Vec2 q = corners.corner(i), edge = q - p;
-    const Vec2 outward(edge.y(), -edge.x());
-    const double off = outward.dot(place - p), squared = edge.squaredNorm();
-    const double most = let_beyond(radius, 0);
-    if (off > 0 && off * off <= most * most * squared) place -= off / squared * outward;
+    if (const double length = edge.norm(); length > 0) {
+      const Vec2 outward(edge.y() / length, -edge.x() / length);
+      const double off = outward.dot(place - p);
+      if (off > 0 && off <= let_beyond(radius, 0)) place -= off * outward;
+    }
     p = q;
   }
   return place;
