@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <set>
 #include <utility>
 
 #include <Eigen/Geometry>
@@ -138,8 +137,6 @@ class FacetMaker {
     }
     return facets;
   }
-  /// The facet of each face.
-  const std::vector<int>& facet_of_face() const { return facet_; }
 
  private:
   /// How far a face extends from that edge.
@@ -207,112 +204,6 @@ class FacetMaker {
   std::vector<int> facet_, members_;
 };
 
-/// Joins edges between the same two facets that lie in one line but for `flat`, so that no vertex
-/// between them is a corner. `facets_at` are those of each vertex.
-class SideMaker {
- public:
-  SideMaker(const std::vector<Vec3>& vertices, double part, double flat,
-            std::vector<std::vector<int>>& facets_at)
-      : vertices_(vertices),
-        part_(part),
-        flat_(flat),
-        facets_at_(facets_at),
-        is_corner_(vertices.size(), true),
-        sides_at_(vertices.size()) {}
-
-  void add_edge(int left, int right, std::array<int, 2> ends) {
-    if (left > right) std::swap(left, right), std::swap(ends[0], ends[1]);
-    // Of facets that meet in several places at once no edges are joined there.
-    if (!chains_[{left, right}].emplace(ends[0], ends[1]).second) {
-      join({ends[0], ends[1]}, {left, right});
-    }
-  }
-  std::vector<ConvexTables::Segment> make() {
-    for (auto& [facets, onward] : chains_) {
-      while (!onward.empty()) follow(onward, facets);
-    }
-    for (std::size_t v = 0; v < vertices_.size(); ++v) {
-      if (sides_at_[v].empty()) add_sides_at(static_cast<int>(v));
-    }
-    return sides_;
-  }
-  bool is_corner(int vertex) const { return is_corner_[vertex]; }
-  /// Those of each vertex.
-  const std::vector<std::vector<int>>& sides_at() const { return sides_at_; }
-
- private:
-  /// Takes one chain of edges, from its first vertex or, of a polygon's outline, from a corner on.
-  void follow(std::map<int, int>& onward, const std::pair<int, int>& facets) {
-    std::set<int> reached;
-    for (const auto& [from, to] : onward) reached.insert(to);
-    int start = onward.begin()->first;
-    double most = -1;
-    for (const auto& [from, to] : onward) {
-      if (!reached.contains(from)) {
-        start = from;
-        break;
-      }
-      const Vec3 way = part_ * vertices_[from] - part_ * vertices_[onward.begin()->first];
-      if (const double far = way.squaredNorm(); far > most) most = far, start = from;
-    }
-    std::vector<int> run = {start};
-    for (auto at = onward.find(start); at != onward.end(); at = onward.find(run.back())) {
-      if (run.size() > 1 && !is_straight(run, at->second)) {
-        join(run, facets);
-        run = {run.back()};
-      }
-      run.push_back(at->second);
-      onward.erase(at);
-    }
-    join(run, facets);
-  }
-  /// A vertex inside of a facet may lie on one of its sides but for rounding.
-  void add_sides_at(int vertex) {
-    for (std::size_t i = 0; i < sides_.size(); ++i) {
-      const ConvexTables::Segment& s = sides_[i];
-      const Vec3 arm = part_ * vertices_[vertex] - part_ * s.from;
-      const double t = arm.dot(s.along);
-      if (!(t > 0 && t < part_ * s.length &&
-            (arm - t * s.along).cwiseAbs().maxCoeff() <= part_ * flat_)) {
-        continue;
-      }
-      sides_at_[vertex].push_back(static_cast<int>(i));
-      for (const int f : {facets_of_[i].first, facets_of_[i].second}) {
-        std::vector<int>& known = facets_at_[vertex];
-        if (std::find(known.begin(), known.end(), f) == known.end()) known.push_back(f);
-      }
-    }
-  }
-  Vec3 along(int from, int to) const {
-    return unit_along(part_ * vertices_[to] - part_ * vertices_[from]);
-  }
-  bool is_straight(const std::vector<int>& run, int end) const {
-    const Vec3 way = along(run.front(), end);
-    return std::all_of(run.begin() + 1, run.end(), [&](int v) {
-      const Vec3 arm = part_ * vertices_[v] - part_ * vertices_[run.front()];
-      return facets_at_[v].size() == 2 &&
-             (arm - arm.dot(way) * way).cwiseAbs().maxCoeff() <= part_ * flat_;
-    });
-  }
-  void join(const std::vector<int>& run, const std::pair<int, int>& facets) {
-    for (std::size_t i = 1; i + 1 < run.size(); ++i) is_corner_[run[i]] = false;
-    const Vec3 &from = vertices_[run.front()], &to = vertices_[run.back()];
-    const Vec3 way = along(run.front(), run.back());
-    sides_.push_back({{run.front(), run.back()}, way, from, (to - from).dot(way)});
-    facets_of_.push_back(facets);
-    for (const int v : run) sides_at_[v].push_back(static_cast<int>(sides_.size()) - 1);
-  }
-
-  const std::vector<Vec3>& vertices_;
-  double part_, flat_;
-  std::vector<std::vector<int>>& facets_at_;
-  std::vector<bool> is_corner_;
-  std::map<std::pair<int, int>, std::map<int, int>> chains_;  ///< each vertex's next one
-  std::vector<ConvexTables::Segment> sides_;
-  std::vector<std::pair<int, int>> facets_of_;  ///< of each side
-  std::vector<std::vector<int>> sides_at_;
-};
-
 }  // namespace
 
 ConvexTables::ConvexTables(const std::vector<Vec3>& points, const std::vector<Convex::Face>& given,
@@ -341,7 +232,7 @@ ConvexTables::ConvexTables(const std::vector<Vec3>& points, const std::vector<Co
     const Vec3 left = face_normal(e.faces[0]), right = face_normal(e.faces[1]);
     const Vec3 middle = (left + right + along.cross(left - right)).normalized();
     const int index = static_cast<int>(edges.size());
-    edges.push_back({{e.vertices, along}, middle, 0, e.faces[0], e.faces[1]});
+    edges.push_back({Vec3::Zero(), along, middle, 0, 0, e.vertices, e.faces[0], e.faces[1]});
     of_face[e.faces[0]].push_back({index, e.faces[1]});
     of_face[e.faces[1]].push_back({index, e.faces[0]});
     for (const int v : e.vertices) edges_at[v].push_back(index);
@@ -350,28 +241,11 @@ ConvexTables::ConvexTables(const std::vector<Vec3>& points, const std::vector<Co
   vertex_edges = lists_of(edges_at);
   measure();
   constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
-  FacetMaker maker(points, given, *this, rounding * far);
-  facets = maker.make();
-  const std::vector<int>& facet_of = maker.facet_of_face();
-  for (std::size_t f = 0; f < given.size(); ++f) {
-    for (const int v : given[f].vertices) {
-      std::vector<int>& known = facets_at[v];
-      if (std::find(known.begin(), known.end(), facet_of[f]) == known.end()) {
-        known.push_back(facet_of[f]);
-      }
-    }
-  }
-  SideMaker joining(points, part, rounding * far, facets_at);
-  for (const Edge& e : edges) {
-    const int left = facet_of[e.left], right = facet_of[e.right];
-    if (left != right) joining.add_edge(left, right, e.vertices);
-  }
-  sides = joining.make();
-  for (Facet& f : facets) {
-    std::erase_if(f.corners, [&](int v) { return !joining.is_corner(v); });
+  facets = FacetMaker(points, given, *this, rounding * far).make();
+  for (std::size_t f = 0; f < facets.size(); ++f) {
+    for (const int v : facets[f].corners) facets_at[v].push_back(static_cast<int>(f));
   }
   vertex_facets = lists_of(facets_at);
-  vertex_sides = lists_of(joining.sides_at());
 }
 
 void ConvexTables::measure() {
@@ -381,15 +255,11 @@ void ConvexTables::measure() {
   for (int f = 0; f < 4 * static_cast<int>(faces.size()); ++f) {
     faces[f / 4].offset[f % 4] = support(face_normal(std::min(f, face_count - 1)));
   }
-  const auto place = [this](Segment& s) {
-    s.from = vertex(s.vertices[0]);
-    s.length = (vertex(s.vertices[1]) - s.from).dot(s.along);
-  };
   for (Edge& e : edges) {
-    place(e);
+    e.from = vertex(e.vertices[0]);
+    e.length = (vertex(e.vertices[1]) - e.from).dot(e.along);
     e.reach = support(e.middle);
   }
-  for (Segment& s : sides) place(s);
   for (Facet& f : facets) f.offset = support(f.normal);
   for (int f = 0; f < face_count; ++f) {
     // Its edges' vertices, each of which it has twice.

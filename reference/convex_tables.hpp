@@ -28,18 +28,13 @@ struct ConvexTables {
     Four offset;  ///< the body's support along the normal
     Four heights(const Vec3& p) const { return normal.along(p) - offset; }
   };
-  /// From one vertex to another.
-  struct Segment {
-    std::array<int, 2> vertices;
-    Vec3 along;
-    Vec3 from = Vec3::Zero();
-    double length = 0;
-  };
   /// An edge, counterclockwise as seen from outside its left face. Its outward normals are those
   /// from the left face's to the right one's, with the middle between them (in a polygon's plane).
-  struct Edge : Segment {
-    Vec3 middle;
+  struct Edge {
+    Vec3 from, along, middle;
+    double length;
     double reach;  ///< the body's support along the middle
+    std::array<int, 2> vertices;
     int left, right;
   };
   struct FaceEdge {
@@ -70,10 +65,7 @@ struct ConvexTables {
   std::vector<Edge> edges;
   Lists<FaceEdge> face_edges;
   std::vector<Facet> facets;
-  /// Sides of facets: of edges between the same two that lie in one line but for rounding only one.
-  std::vector<Segment> sides;
-  /// A vertex inside of a facet has that one and no side, one inside of a side has that one.
-  Lists<int> vertex_facets, vertex_sides, vertex_edges;
+  Lists<int> vertex_facets, vertex_edges;
   double far;  ///< the largest sum of a vertex's coordinates: lengths are rounded as parts of it
 
   ConvexTables(const std::vector<Vec3>& vertices, const std::vector<Convex::Face>& faces,

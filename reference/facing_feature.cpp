@@ -128,7 +128,7 @@ void set_facet(FacingFeature& feature, const PosedConvex& body, const ConvexTabl
   feature.hull = &body;
   feature.facet = &facet;
 }
-void set_edge(FacingFeature& feature, const PosedConvex& body, const ConvexTables::Segment& edge) {
+void set_edge(FacingFeature& feature, const PosedConvex& body, const ConvexTables::Edge& edge) {
   feature.sine = 1;
   feature.kind = Kind::segment;
   feature.left_out[0] = 0;
@@ -138,7 +138,7 @@ void set_edge(FacingFeature& feature, const PosedConvex& body, const ConvexTable
   feature.middle = body.centre + body.axes * (edge.from + edge.length / 2 * edge.along);
 }
 
-/// Of the facets and their sides at the farthest vertex, those that lean least.
+/// Of the facets and edges at the farthest vertex, those that lean least.
 FacingFeature facing(const PosedConvex& body, const Vec3& outward, double slack) {
   const ConvexTables& hull = body.body.tables();
   const Vec3 n = body.axes.transpose() * outward;
@@ -169,18 +169,18 @@ FacingFeature facing(const PosedConvex& body, const Vec3& outward, double slack)
       return feature;
     }
   }
-  const ConvexTables::Segment* side = nullptr;
+  const ConvexTables::Edge* edge = nullptr;
   least = std::numeric_limits<double>::infinity();
-  for (const int i : hull.vertex_sides.of(top)) {
-    const ConvexTables::Segment& other = hull.sides[static_cast<std::size_t>(i)];
+  for (const int e : hull.vertex_edges.of(top)) {
+    const ConvexTables::Edge& other = hull.edges[static_cast<std::size_t>(e)];
     const double sine = std::abs(other.along.dot(n));
-    if (sine < least) least = sine, side = &other;
+    if (sine < least) least = sine, edge = &other;
   }
-  const double half = side ? side->length / 2 : 0;
-  if (const double part = part_of_flat(half, least, slack); side && part > 0) {
-    set_edge(feature, body, *side);
+  const double along = edge->along.dot(n), half = edge->length / 2;
+  if (const double part = part_of_flat(half, along, slack); part > 0) {
+    set_edge(feature, body, *edge);
     feature.part = part;
-    feature.left_out[0] = -std::copysign(2 * (1 - part) * half, side->along.dot(n));
+    feature.left_out[0] = -std::copysign(2 * (1 - part) * half, along);
     return feature;
   }
   feature.middle = body.centre + body.axes * hull.vertex(top);

@@ -69,6 +69,6 @@ FacingFeature facing(const PosedConvex& body, const Vec3& outward, double slack)
 /// Makes the feature a facet, of which one corner is named, or an edge, whichever way they lean.
 void set_facet(FacingFeature& feature, const PosedConvex& body, const ConvexTables::Facet& facet,
                int corner);
-void set_edge(FacingFeature& feature, const PosedConvex& body, const ConvexTables::Segment& edge);
+void set_edge(FacingFeature& feature, const PosedConvex& body, const ConvexTables::Edge& edge);
 
 }  // namespace touchstone
