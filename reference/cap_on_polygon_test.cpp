@@ -91,7 +91,7 @@ TEST(CapOnPolygon, PointsLieInBoth) {
 TEST(CapOnPolygon, HullNeverJumps) {
   Random random(3);
   for (int i = 0; i < 2000; ++i) {
-    const int sides = 3 + random.one_of(30);
+    const int sides = 3 + random.one_of(10);
     const Vec2 away(random.uniform(-1.5, 1.5), random.uniform(-1.5, 1.5));
     const double size = random.uniform(0.3, 2), lean = random.uniform(0, 6),
                  clearness = random.uniform(0, 1);
