@@ -37,7 +37,7 @@ std::vector<Configuration> rounded_bodies(Pair pair) {
 }
 
 /// Metres: the promise of the headers, and what doubles place the bodies to.
-double promised(const Configuration& c) {
+double promised_for(const Configuration& c) {
   const double apart = (c.pose_a.position() - c.pose_b.position()).norm();
   return 1e-13 * (larger_size(c) + apart) + position_rounding(c);
 }
@@ -50,16 +50,16 @@ TEST_P(Rounded, BodiesHaveTheTruesDistanceAndNormal) {
     const oracle::Truth t = oracle::truth(c);
     const double truth = t.signed_distance.midpoint();
     const SignedDistance found = signed_distance(c);
-    EXPECT_NEAR(found.value, truth, promised(c));
-    EXPECT_LE(oracle::normal_regret(c, t, found.normal), promised(c));
+    EXPECT_NEAR(found.value, truth, promised_for(c));
+    EXPECT_LE(oracle::normal_regret(c, t, found.normal), promised_for(c));
     const CertifiedDistance certified = certified_distance(c);
     EXPECT_NEAR(certified.value, truth, certified.error_bound);
-    if (std::abs(truth) > promised(c)) {
+    if (std::abs(truth) > promised_for(c)) {
       EXPECT_EQ(overlaps(c), truth < 0);
     }
     const Contact beyond = contact(c, truth - smaller_size(c));
     EXPECT_TRUE(beyond.points().empty());
-    EXPECT_LE(beyond.signed_distance, truth + promised(c));
+    EXPECT_LE(beyond.signed_distance, truth + promised_for(c));
   }
 }
 
@@ -76,7 +76,7 @@ TEST_P(Rounded, BodiesMeetAtTheirPoints) {
       EXPECT_NEAR(point_distance(c.a, c.pose_a, p.position - half), 0, aside);
       EXPECT_NEAR(point_distance(c.b, c.pose_b, p.position + half), 0, aside);
     }
-    EXPECT_NEAR(deepest, -distance, 1e-6 * smaller_size(c) + promised(c));
+    EXPECT_NEAR(deepest, -distance, 1e-6 * smaller_size(c) + promised_for(c));
   }
 }
 
@@ -102,7 +102,7 @@ TEST_P(Rounded, BodiesHaveAHintsNormalOnlyWhereItTies) {
     for (const Vec3& previous : {Vec3(1, 0, 0), Vec3(0, -1, 0), Vec3(0, 0, 1)}) {
       const Contact answer = contact(c, threshold, &previous);
       if (std::holds_alternative<Plane>(c.b)) continue;
-      EXPECT_GE(gap(c, answer.normal), found.value - threshold - promised(c));
+      EXPECT_GE(gap(c, answer.normal), found.value - threshold - promised_for(c));
     }
   }
 }
