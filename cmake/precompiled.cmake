@@ -39,7 +39,7 @@ set(COMMON_LIBRARIES Eigen3::Eigen fmt::fmt nlohmann_json::nlohmann_json)
 # superword vectoriser makes some (vfmaddsub, with -mfma) even where contraction is off.
 set(SAME_BITS -ffp-contract=off -fno-tree-slp-vectorize)
 # What reads, writes and prints takes half as long to compile at -Og, and no longer to run.
-set(RARELY_RUN ${SAME_BITS} $<$<CONFIG:Release>:-Og>)
+set(RARELY_RUN ${SAME_BITS} $<$<CONFIG:Release,Sanitized>:-Og>)
 
 precompiled(touchstone_headers
   OPTIONS ${SAME_BITS}

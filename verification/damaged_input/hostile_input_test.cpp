@@ -93,7 +93,7 @@ void expect_answer_or_refusal(const char* reader, double share,
     EXPECT_NO_THROW(read(text, 0)) << reader << " refuses true input: " << printable(text, 2000);
   }
   const auto count = std::max<std::uint64_t>(
-      30, static_cast<std::uint64_t>(static_cast<double>(whole_count()) * share / 100));
+      8, static_cast<std::uint64_t>(static_cast<double>(whole_count()) * share / 100));
   std::uint64_t refused = 0, failed = 0;
   for (std::uint64_t i = 1; i <= count && failed < 10; ++i) {
     Mutation mutation(i);
