@@ -10,7 +10,6 @@ namespace touchstone {
 // coaxial caps rounding says where the line of centres runs, so the four wait until it is clear.
 CapOnCap::CapOnCap(const Circle& c1, const Circle& c2, const Vec2& anchor)
     : circle1_(c1), circle2_(c2), anchor_(anchor) {
-  constexpr double clear = 1e-6, handed_over = 0.005;
   const double r1 = c1.radius, r2 = c2.radius, smaller = std::min(r1, r2);
   const Vec2 between = c2.centre - c1.centre;
   apart_ = between.norm();
@@ -54,21 +53,21 @@ int CapOnCap::spread_lens(std::array<Vec2, max_points>& points) const {
   const double r1 = circle1_.radius, r2 = circle2_.radius;
   const double rise1 = r1 - chord_, rise2 = chord_ - (apart_ - r2);
   const Vec2 end1 = (r1 - along_) * towards_, end2 = (apart_ - r2 - along_) * towards_;
-  // Of arcs that stand out alike, and of all but whole discs, their middles and the lens's widest
-  // places; else two points of each arc.
+  // Of arcs that stand out alike, and until the disc's points are gone, their middles and the
+  // lens's widest places; else two points of each arc.
   const Vec2 aside = turned_left(towards_);
   const Vec2 widest = chord_ <= 0        ? Vec2(circle1_.centre + r1 * aside)
                       : chord_ >= apart_ ? Vec2(circle2_.centre + r2 * aside)
                                          : left_;
   const double half = aside.dot(widest);
-  constexpr double are_alike = 0.45, all_but_whole = 0.01;
+  constexpr double are_alike = 0.45, has_left = clear + 2 * handed_over;
   const double lower = std::min(rise1, rise2), higher = std::max(rise1, rise2);
-  if (lower >= are_alike * higher || missing_ <= all_but_whole) {
+  if (lower >= are_alike * higher || !over_.is_over()) {
     points[0] = end1, points[1] = widest, points[2] = end2, points[3] = widest - 2 * half * aside;
     return 4;
   }
   const double alike = lower / higher;
-  const double uneven = ramp(alike, are_alike, 0.43) * ramp(missing_, all_but_whole, 0.018);
+  const double uneven = ramp(alike, are_alike, 0.43) * ramp(missing_, has_left, 0.018);
   const bool first_is_flatter = rise1 < rise2;
   const Circle& round = first_is_flatter ? circle2_ : circle1_;
   const Circle& flat = first_is_flatter ? circle1_ : circle2_;

@@ -22,7 +22,7 @@ class CapOnCap {
   Vec2 nearest() const;
   Vec2 farthest(const Vec2& unit, double = 0) const;
 
-  static constexpr int max_points = 9;  ///< no more than 8 of them differ
+  static constexpr int max_points = 8;
   /// As CapOnFace::spread, and as `cut_off` there.
   int spread(const Vec2& towards, const Vec2& deepest, double clearness,
              std::array<Vec2, max_points>& points) const;
@@ -30,6 +30,10 @@ class CapOnCap {
                int count) const;
 
  private:
+  /// How far a cap leaves the other one, in parts of the smaller radius, until that is clear; and
+  /// twice this part further on three points have been handed over to four.
+  static constexpr double clear = 1e-6, handed_over = 0.005;
+
   /// Points whose hull covers 0.6 of the lens in every direction from its centroid: four,
   /// or five on the way from one way to place four to another. Returns how many.
   int spread_lens(std::array<Vec2, max_points>& points) const;

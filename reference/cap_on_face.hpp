@@ -28,7 +28,7 @@ class CapOnFace {
   /// than `straight`, a place on the edge, so that it does not change ends all at once.
   Vec2 farthest(const Vec2& unit, double straight = 0) const;
 
-  static constexpr int max_points = 9;  ///< no more than 8 of them differ
+  static constexpr int max_points = 8;
   /// The points of a cap that leans towards a unit vector, at whose farthest place `deepest` it is
   /// deepest, more or less clearly (`deepest_point_weight`). Returns how many.
   int spread(const Vec2& towards, const Vec2& deepest, double clearness,

@@ -57,8 +57,7 @@ class Contact {
   std::span<const ContactPoint> points() const { return {points_.data(), count_}; }
   void add_point(const Vec3& position, double depth) {
     assert(count_ < max_points);
-    if (count_ < max_points) [[likely]]
-      points_[count_++] = {position, depth};
+    points_[count_++] = {position, depth};
   }
   void clear_points() { count_ = 0; }
   /// Moves the points by a vector and makes them deeper; leaves out those that are no farther than
