@@ -128,8 +128,10 @@ void disc_on_disc(const Manifold& to, const FacingFeature& first, const FacingFe
   if (patch.empty()) return plane.add(patch.middle() + patch.nearest(), s);
   const double radius = std::min(c1.radius, c2.radius);
   auto found = points_of(plane, patch, patch.middle(), radius, 1, s);
-  // Of caps that hardly face each other any more the points draw together to the deepest.
-  if (const double part = first.part * second.part; part < 1) {
+  // Of caps that hardly face each other any more the points draw together to the deepest: as they
+  // lean, for where their rims cross next to the deepest place the normal leans anywhere between.
+  const double facing = facing_part(radius, s.slope().norm(), plane.margins().flat);
+  if (const double part = std::min(first.part * second.part, facing); part < 1) {
     const Vec2 to_where = found.clearness * found.deepest;
     for (int i = 0; i < found.count; ++i) {
       found.points[i] = to_where + part * (found.points[i] - to_where);

@@ -366,6 +366,24 @@ struct Step {
   }
 };
 
+// There the normal turns from one cap's to the other's while the rims' crossing moves by the square
+// of the caps' offset: by a few hundred times the step.
+TEST(ManifoldMotion, HullNeverJumpsWhereRimsCrossNextToTheDeepestPlace) {
+  constexpr double step = 1e-9, depth = 2.6e-4;
+  const double most = 8 * std::sqrt(step);
+  for (const double tilt : {2.3e-3, 2.5e-3, 2.7e-3, 2.9e-3}) {
+    const Quaternion turn(Eigen::AngleAxisd(tilt, Vec3::UnitX()));
+    const Vec3 to_cap = turn * Vec3(0, 0, -1);
+    for (double offset = -1e-5; offset < 1e-5; offset += 2e-7) {
+      const auto at = [&](double way) {
+        const Vec3 cap(-2.9e-3, offset + way, 1 + std::sin(tilt) - depth);
+        return contact({Cylinder(1, 1), Pose(cap - to_cap, turn), Cylinder(1, 1), Pose()}, 0);
+      };
+      EXPECT_LE(hull_movement(at(0), at(step)), most) << tilt << " " << offset;
+    }
+  }
+}
+
 // An edge that hardly cuts is short; its ends are equally deep then, and rounding says which is the
 // deeper one.
 TEST(ManifoldMotion, DeepestPointStaysAsALeanTurnsAcrossAnEdge) {
