@@ -59,10 +59,8 @@ struct CheckArguments {
     return c;
   }
 
-  /// None beside --known, which knows failures that were saved: those of casts are not.
   std::vector<const CastLaw*> cast_laws() const {
     std::vector<const CastLaw*> chosen;
-    if (laws.empty() && !known.empty()) return chosen;
     for (const CastLaw& law : all_cast_laws()) {
       if (laws.empty() || std::ranges::count(laws, law.name) > 0) chosen.push_back(&law);
     }
@@ -152,18 +150,10 @@ std::string groups_text(const std::vector<Group>& groups) {
   return names.empty() ? "" : fmt::format(" of {} poses", fmt::join(names, ", "));
 }
 
-/// Failures that are known are counted apart.
-std::vector<LawResult> check_laws(const Candidate* candidate, const CheckOptions& checks,
-                                  const std::vector<Failure>& known, const Teller& teller) {
-  if (!candidate) return {};
-  CandidateProcess process(*candidate, checks.bar.threshold);
+/// Tells what is new; failures that are known are counted apart.
+std::vector<LawResult> told(std::vector<LawResult> results, const std::vector<Failure>& known,
+                            const Teller& teller) {
   const Terminal terminal = standard_output();
-  teller.tell(terminal.folded(fmt::format(
-      "{} {}, seed {}, {} of each pair and pose class{}, tolerance {}",
-      shown_name(process.candidate().name), process.candidate().version, checks.seed,
-      counted(checks.count, "configuration"), groups_text(checks.groups), checks.bar.tolerance)));
-  auto results = with_progress("configurations",
-                               [&](const auto& tell) { return check(process, checks, tell); });
   if (!known.empty()) {
     const std::size_t all = in_order(results).size();
     results = new_ones(std::move(results), known);
@@ -171,21 +161,23 @@ std::vector<LawResult> check_laws(const Candidate* candidate, const CheckOptions
                                             all - in_order(results).size(), all)));
   }
   teller.tell(check_text(results, terminal));
-  if (std::none_of(results.begin(), results.end(), [](auto& r) { return r.tried > 0; })) {
-    refuse_without_routine(process.candidate().name);
-  }
   return results;
 }
 
-std::vector<CastLawResult> check_cast_laws(const Candidate* candidate, const CheckOptions& checks,
-                                           std::span<const CastLaw* const> laws,
-                                           const Teller& teller) {
-  if (!candidate || laws.empty()) return {};
-  const auto ask = [&](std::span<const CastQuestion> casts) {
-    return ask_casts(*candidate, casts);
-  };
-  std::vector<CastLawResult> results = check_casts(ask, laws, checks);
-  teller.tell(cast_laws_text(results, candidate->name, standard_output()));
+std::vector<LawResult> check_laws(const Candidate& candidate, const CheckOptions& checks,
+                                  const std::vector<Failure>& known, const Teller& teller) {
+  CandidateProcess process(candidate, checks.bar.threshold);
+  const Terminal terminal = standard_output();
+  teller.tell(terminal.folded(fmt::format(
+      "{} {}, seed {}, {} of each pair and pose class{}, tolerance {}",
+      shown_name(process.candidate().name), process.candidate().version, checks.seed,
+      counted(checks.count, "configuration"), groups_text(checks.groups), checks.bar.tolerance)));
+  auto results = with_progress("configurations",
+                               [&](const auto& tell) { return check(process, checks, tell); });
+  results = told(std::move(results), known, teller);
+  if (std::none_of(results.begin(), results.end(), [](auto& r) { return r.tried > 0; })) {
+    refuse_without_routine(process.candidate().name);
+  }
   return results;
 }
 
@@ -225,13 +217,17 @@ int run_check(const CheckArguments& options) {
   CheckResult result{candidate ? candidate->name : "",
                      replay_all(options.corpus, "--corpus", candidate, teller)};
   result.known = replay_all(options.known, "--known", candidate, teller);
-  if (!checks.laws.empty()) {
-    result.laws = check_laws(candidate, checks, still_failing(result.known), teller);
-  }
-  result.casts = check_cast_laws(candidate, checks, options.cast_laws(), teller);
-  if (candidate && checks.laws.empty() && result.casts.empty()) {
-    throw InvalidInput("--law", in_quotes(options.laws.front()),
-                       "must be a law of contacts: " + candidate->name + " has no casts");
+  const std::vector<Failure> known = still_failing(result.known);
+  if (candidate && !checks.laws.empty())
+    result.laws = check_laws(*candidate, checks, known, teller);
+  const auto cast_laws = options.cast_laws();
+  if (candidate && !cast_laws.empty()) {
+    auto casts = told(check_casts(*candidate, cast_laws, checks), known, teller);
+    if (checks.laws.empty() && casts.empty()) {
+      throw InvalidInput("--law", in_quotes(options.laws.front()),
+                         "must be a law of contacts: " + candidate->name + " has no casts");
+    }
+    std::ranges::move(casts, std::back_inserter(result.laws));
   }
   if (!options.save.empty()) save_all(result.laws, options.save, teller);
   if (!options.junit.empty()) write_file(options.junit, junit_xml(result), "--junit");

@@ -106,18 +106,21 @@ class Simplifier {
   std::vector<Configuration> result_;
 };
 
+Eigen::Quaterniond unit_length(const Eigen::Quaterniond& q) {
+  return Pose(Vec3::Zero(), q).unit_orientation();
+}
+
+/// Both bodies in B's frame.
+void see_from_b(Numbers& n) {
+  const Eigen::Quaterniond back = unit_length(n.orientation_b).conjugate();
+  n.position_a = back * (n.position_a - n.position_b);
+  n.orientation_a = back * unit_length(n.orientation_a);
+  n.position_b.setZero();
+  n.orientation_b.setIdentity();
+}
+
 void move_to_the_origin(Simplifier& steps) {
-  steps.add([](Numbers& n) {
-    // Both bodies in B's frame.
-    const auto unit = [](const Eigen::Quaterniond& q) {
-      return Pose(Vec3::Zero(), q).unit_orientation();
-    };
-    const Eigen::Quaterniond back = unit(n.orientation_b).conjugate();
-    n.position_a = back * (n.position_a - n.position_b);
-    n.orientation_a = back * unit(n.orientation_a);
-    n.position_b.setZero();
-    n.orientation_b.setIdentity();
-  });
+  steps.add(see_from_b);
   steps.add([](Numbers& n) {
     n.position_a -= n.position_b;
     n.position_b.setZero();
@@ -136,6 +139,10 @@ int complexity(const Configuration& c) {
   for (const Vec3& vertex : n.vertices) sum += 1 + total(vertex);
   return sum + total(n.position_a) + total(n.position_b) + complexity(n.orientation_a) +
          complexity(n.orientation_b) + total(n.normal) + complexity(n.displacement);
+}
+
+int complexity(const CastQuestion& cast) {
+  return complexity(cast.configuration) + total(cast.sweep);
 }
 
 std::vector<Configuration> simpler(const Configuration& configuration) {
@@ -176,21 +183,38 @@ std::vector<Configuration> simpler(const Configuration& configuration) {
   return steps.take();
 }
 
+std::vector<CastQuestion> simpler(const CastQuestion& cast) {
+  std::vector<CastQuestion> result;
+  Numbers seen = numbers_of(cast.configuration);
+  const Eigen::Quaterniond back = unit_length(seen.orientation_b).conjugate();
+  see_from_b(seen);
+  try {
+    result.push_back({configuration_of(seen), back * cast.sweep});
+  } catch (const InvalidInput&) {
+    // As a Simplifier skips it.
+  }
+  for (Configuration& c : simpler(cast.configuration)) result.push_back({std::move(c), cast.sweep});
+  for (int i = 0; i < 3; ++i) {
+    for (const double x : simpler_numbers(cast.sweep[i], false)) {
+      result.push_back(cast);
+      result.back().sweep[i] = x;
+    }
+  }
+  std::erase_if(result, [&](const CastQuestion& q) {
+    return !q.sweep.allFinite() || complexity(q) >= complexity(cast);
+  });
+  return result;
+}
+
 Configuration simplified(const Configuration& configuration,
                          const std::function<bool(const Configuration&)>& still_fails,
                          int max_trials) {
-  Configuration best = configuration;
-  for (int trials = 0;;) {
-    bool found = false;
-    for (const Configuration& next : simpler(best)) {
-      if (trials++ == max_trials) return best;
-      if (!still_fails(next)) continue;
-      best = next;
-      found = true;
-      break;
-    }
-    if (!found) return best;
-  }
+  return simplified_in_batches(
+      configuration,
+      [&](const std::vector<Configuration>& next) {
+        return static_cast<std::size_t>(std::ranges::find_if(next, still_fails) - next.begin());
+      },
+      static_cast<std::size_t>(max_trials));
 }
 
 }  // namespace touchstone

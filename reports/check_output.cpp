@@ -8,9 +8,11 @@
 
 #include <nlohmann/json.hpp>
 
-#include "oracle/truth.hpp"
+#include "oracle/first_touch.hpp"
 #include "properties/files/given_text.hpp"
+#include "properties/laws/cast_laws.hpp"
 #include "properties/laws/failure_file.hpp"
+#include "reports/examine_cast.hpp"
 #include "reports/replay.hpp"
 
 namespace touchstone {
@@ -36,18 +38,24 @@ std::string answer_words(const std::optional<ts_answer>& answer) {
 std::string breach_text(const Failure& f, const Terminal& terminal) {
   return terminal.folded(fmt::format("{} {}, {}: {}", pair_name(pair_of(f.configuration)), f.law,
                                      f.violation.failure, f.violation.detail)) +
-         terminal.below(find_law(f.law).statement);
+         terminal.below(statement_of_law(f.law));
 }
 
 /// The configuration once, in the command that shows it again.
 std::string case_text(const Failure& f, const Terminal& terminal) {
-  const oracle::Enclosure truth = oracle::truth(f.configuration).signed_distance;
   const auto group = group_met(f);
-  return terminal.below(fmt::format("first met{} as {}; simplified:",
-                                    group ? fmt::format(" in {} poses", group_name(*group)) : "",
-                                    f.identity)) +
-         fmt::format("  {} --candidates {} --threshold {}\n",
-                     piped_to_replay(f.configuration, {f.candidate}), f.candidate,
+  const std::string met = terminal.below(
+      fmt::format("first met{} as {}; simplified:",
+                  group ? fmt::format(" in {} poses", group_name(*group)) : "", f.identity));
+  const std::string replays = piped_to_replay(f.configuration, f.sweep, {f.candidate});
+  if (f.sweep) {
+    const auto touch = oracle::first_touch(f.configuration, Sweep(*f.sweep));
+    return met + fmt::format("  {} --candidates {}\n", replays, f.candidate) +
+           terminal.below("truth: " + first_touch_text(touch));
+  }
+  const oracle::Enclosure truth = oracle::truth(f.configuration).signed_distance;
+  return met +
+         fmt::format("  {} --candidates {} --threshold {}\n", replays, f.candidate,
                      f.bar.threshold) +
          terminal.below(fmt::format("truth: signed distance {} m", nearest_to_middle(truth))) +
          terminal.below("answer: " + answer_words(f.answer));
@@ -105,7 +113,7 @@ std::string corpus_name(const Failure& f) {
 }
 
 /// What came of a law, beside its name or, on a narrow terminal, below it.
-std::string law_text(const LawResult& r, const std::string& law, const Terminal& terminal) {
+std::string law_text(const LawResult& r, const Terminal& terminal) {
   constexpr std::size_t verdict_at = 29, counts_at = 46, min_room = 24;
   const std::string verdict = r.broken > 0      ? fmt::format("broken by {}", r.broken)
                               : r.known.empty() ? "passed"
@@ -114,7 +122,7 @@ std::string law_text(const LawResult& r, const std::string& law, const Terminal&
     if (r.broken > 0) return terminal.bad(text);
     return r.known.empty() ? terminal.good(text) : text;
   };
-  const std::string name = fmt::format("  {:<13}{:>6} tried", law, r.tried);
+  const std::string name = fmt::format("  {:<13}{:>6} tried", r.law, r.tried);
   const std::string counts = counts_text(r);
   if (!counts.empty() && terminal.columns >= counts_at + min_room) {
     const std::string beside =
@@ -136,43 +144,14 @@ bool CheckResult::has_failed() const {
                                [&](const ReplayedFailure& r) { return is_failing(r, are_known); });
   };
   return fails(corpus, false) || fails(known, true) ||
-         std::ranges::any_of(laws, [](const LawResult& r) { return r.broken > 0; }) ||
-         std::ranges::any_of(casts, [](const CastLawResult& r) { return r.broken > 0; });
-}
-
-namespace {
-
-std::string cast_breach_text(const CastLawResult& r, const std::string& candidate,
-                             const Terminal& terminal) {
-  return terminal.folded(fmt::format("{} {}, {}: {}", pair_name(r.pair), r.law->name,
-                                     r.violation->failure, r.violation->detail)) +
-         terminal.below(r.law->statement) +
-         fmt::format("  {} replay {} --candidates {}\n", program_name({candidate}), r.identity,
-                     candidate);
-}
-
-}  // namespace
-
-std::string cast_laws_text(const std::vector<CastLawResult>& casts, const std::string& candidate,
-                           const Terminal& terminal) {
-  std::string text, breaches;
-  const char* last = "";
-  for (const CastLawResult& r : casts) {
-    if (pair_name(r.pair) != last) {
-      last = pair_name(r.pair);
-      text += '\n' + terminal.heading(fmt::format("casts of {}", last)) + '\n';
-    }
-    text += law_text({nullptr, r.pair, r.tried, r.broken, 0, r.counts, {}}, r.law->name, terminal);
-    if (r.broken > 0) breaches += '\n' + cast_breach_text(r, candidate, terminal);
-  }
-  return text + breaches;
+         std::ranges::any_of(laws, [](const LawResult& r) { return r.broken > 0; });
 }
 
 std::string check_text(const std::vector<LawResult>& results, const Terminal& terminal) {
-  std::string text;
-  const char* last = "";
+  std::string text, last;
   for (const LawResult& r : results) {
-    const char* pair = pair_name(r.pair);
+    const std::string pair =
+        (find_cast_law(r.law) ? "casts of " : "") + std::string(pair_name(r.pair));
     if (pair != last) text += '\n' + terminal.heading(pair) + '\n';
     if (r.tried == 0) {
       if (pair != last) text += terminal.below("no routine: no law was tried");
@@ -184,7 +163,7 @@ std::string check_text(const std::vector<LawResult>& results, const Terminal& te
                                          counted(r.unsupported, "configuration")));
     }
     last = pair;
-    text += law_text(r, r.law->name, terminal);
+    text += law_text(r, terminal);
   }
   std::vector<const Failure*> firsts;
   for (const LawResult& r : results) {
@@ -228,7 +207,7 @@ std::string junit_xml(const CheckResult& result) {
   for (const LawResult& r : result.laws) {
     seconds += r.seconds;
     cases += fmt::format("    <testcase classname=\"{}.{}\" name=\"{}\" time=\"{:.3f}\">",
-                         xml_escaped(result.candidate), pair_name(r.pair), r.law->name, r.seconds);
+                         xml_escaped(result.candidate), pair_name(r.pair), r.law, r.seconds);
     if (r.tried == 0) skip("no routine for the pair");
     if (r.broken == 0 && !r.known.empty()) skip(counts_text(r));
     if (r.broken > 0) {
@@ -237,17 +216,6 @@ std::string junit_xml(const CheckResult& result) {
                            xml_escaped(r.failures.front().violation.failure),
                            xml_escaped(counts_text(r)),
                            xml_escaped(failure_text(r.failures.front(), unbounded)));
-    }
-    cases += "</testcase>\n";
-  }
-  for (const CastLawResult& r : result.casts) {
-    cases += fmt::format("    <testcase classname=\"{}.{}\" name=\"{}\">",
-                         xml_escaped(result.candidate), pair_name(r.pair), r.law->name);
-    if (r.broken > 0) {
-      ++failures;
-      cases += fmt::format("<failure type=\"{}\" message=\"{}\">{}</failure>",
-                           xml_escaped(r.violation->failure), xml_escaped(listed(r.counts)),
-                           xml_escaped(cast_breach_text(r, result.candidate, unbounded)));
     }
     cases += "</testcase>\n";
   }
@@ -274,8 +242,8 @@ std::string junit_xml(const CheckResult& result) {
       "  <testsuite name=\"touchstone check\" tests=\"{}\" failures=\"{}\" skipped=\"{}\" "
       "time=\"{:.3f}\">\n{}"
       "  </testsuite>\n</testsuites>\n",
-      result.laws.size() + result.casts.size() + result.corpus.size() + result.known.size(),
-      failures, skipped, seconds, cases);
+      result.laws.size() + result.corpus.size() + result.known.size(), failures, skipped, seconds,
+      cases);
 }
 
 json check_json(const CheckResult& result, const CheckOptions& options) {
@@ -284,7 +252,7 @@ json check_json(const CheckResult& result, const CheckOptions& options) {
   for (const LawResult& r : result.laws) {
     json failures = json::array();
     for (const Failure& f : r.failures) failures.push_back(to_json(f));
-    laws.push_back({{"law", r.law->name},
+    laws.push_back({{"law", r.law},
                     {"pair", pair_name(r.pair)},
                     {"tried", r.tried},
                     {"unsupported", r.unsupported},
@@ -292,16 +260,6 @@ json check_json(const CheckResult& result, const CheckOptions& options) {
                     {"outcomes", r.counts},
                     {"known", r.known},
                     {"failures", failures}});
-  }
-  json casts = json::array();
-  for (const CastLawResult& r : result.casts) {
-    json& entry = casts.emplace_back();
-    entry = {{"law", r.law->name},
-             {"pair", pair_name(r.pair)},
-             {"tried", r.tried},
-             {"broken", r.broken},
-             {"outcomes", r.counts}};
-    if (r.broken > 0) entry["first"] = {{"id", r.identity}, {"detail", r.violation->detail}};
   }
   json saved = json::array();
   for (const auto* all : {&result.corpus, &result.known}) {
@@ -320,7 +278,6 @@ json check_json(const CheckResult& result, const CheckOptions& options) {
           {"tolerance", options.bar.tolerance},
           {"threshold", options.bar.threshold},
           {"laws", laws},
-          {"casts", casts},
           {"corpus", saved}};
 }
 

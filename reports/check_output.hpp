@@ -5,7 +5,6 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "properties/laws/cast_laws.hpp"
 #include "properties/laws/check.hpp"
 #include "properties/laws/failure_file.hpp"
 #include "reports/search.hpp"
@@ -21,8 +20,7 @@ std::string failure_text(const Failure& failure, const Terminal& terminal);
 struct CheckResult {
   std::string candidate;  ///< empty: saved failures alone were asked again
   std::vector<ReplayedFailure> corpus, known = {};  ///< saved failures, asked again
-  std::vector<LawResult> laws = {};
-  std::vector<CastLawResult> casts = {};
+  std::vector<LawResult> laws = {};                 ///< of contacts, then of casts
 
   /// Whether a law is broken in a new way or a saved failure has changed. One that is known may be
   /// fixed, but has to be asked.
@@ -32,9 +30,6 @@ struct CheckResult {
 /// A line for each law and pair, and the first failure of each with what is needed to see it again,
 /// in the order of their groups; laws that one configuration breaks stand together.
 std::string check_text(const std::vector<LawResult>& laws, const Terminal& terminal);
-/// Likewise of casts; empty of a candidate that has none.
-std::string cast_laws_text(const std::vector<CastLawResult>& casts, const std::string& candidate,
-                           const Terminal& terminal);
 /// A line for each saved failure that was asked again.
 std::string corpus_text(const std::vector<ReplayedFailure>& corpus, const Terminal& terminal);
 /// One JSON object (docs/check.md).

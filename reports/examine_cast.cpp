@@ -37,13 +37,23 @@ std::string few_digits(const std::optional<double>& x) {
   return x && std::isfinite(*x) ? fmt::format("{:.3g}", *x) : "-";
 }
 
-/// What is proven, in a sentence.
-std::string truth_sentence(const CastExamination& cast) {
+std::string normal_sentence(const CastExamination& cast) {
+  if (!cast.truth.there || cast.truth.there->normals.empty()) return "";
+  const oracle::OptimalNormal& normal = cast.truth.there->normals.front();
+  const auto patch = oracle::contact_patch(at_the_touch(cast, Order::as_ours), normal);
+  return fmt::format("; there: normal ({:.6g}, {:.6g}, {:.6g}), ties: {}; contact patch: {}",
+                     normal.n.x(), normal.n.y(), normal.n.z(), ties_name(cast.truth.there->ties),
+                     patch_kind_name(patch.kind()));
+}
+
+}  // namespace
+
+std::string first_touch_text(const oracle::FirstTouch& touch) {
   using Status = oracle::FirstTouch::Status;
   constexpr int digits = 20;
-  const std::string low = oracle::decimal_below(cast.truth.fraction.lo, digits);
-  const std::string high = oracle::decimal_above(cast.truth.fraction.hi, digits);
-  switch (cast.truth.status) {
+  const std::string low = oracle::decimal_below(touch.fraction.lo, digits);
+  const std::string high = oracle::decimal_above(touch.fraction.hi, digits);
+  switch (touch.status) {
     case Status::touch:
       return fmt::format("A touches B first when it has gone {} of its sweep", high);
     case Status::never:
@@ -58,17 +68,6 @@ std::string truth_sentence(const CastExamination& cast) {
       "whether it does between that and {}",
       low, high);
 }
-
-std::string normal_sentence(const CastExamination& cast) {
-  if (!cast.truth.there || cast.truth.there->normals.empty()) return "";
-  const oracle::OptimalNormal& normal = cast.truth.there->normals.front();
-  const auto patch = oracle::contact_patch(at_the_touch(cast, Order::as_ours), normal);
-  return fmt::format("; there: normal ({:.6g}, {:.6g}, {:.6g}), ties: {}; contact patch: {}",
-                     normal.n.x(), normal.n.y(), normal.n.z(), ties_name(cast.truth.there->ties),
-                     patch_kind_name(patch.kind()));
-}
-
-}  // namespace
 
 CastExamination examine_cast(const Configuration& c, const Sweep& sweep,
                              const std::vector<const Candidate*>& candidates, const Bar& bar) {
@@ -107,7 +106,8 @@ json to_json(const CastExamination& cast, Order order) {
 }
 
 std::string cast_text(const CastExamination& cast, const Terminal& terminal) {
-  std::string text = terminal.folded("cast: " + truth_sentence(cast) + normal_sentence(cast) + '.');
+  std::string text =
+      terminal.folded("cast: " + first_touch_text(cast.truth) + normal_sentence(cast) + '.');
   if (!cast.answers.empty()) {
     const TextTable table("candidate", 0,
                           {{"outcome", 15, 0},

@@ -38,6 +38,8 @@ CastExamination examine_cast(const Configuration& configuration, const Sweep& sw
 /// start}, "answers": {candidate: {"status", "fraction", "normal", "score": {…}}}}.
 nlohmann::json to_json(const CastExamination& cast, Order order = Order::as_ours);
 
+/// What is proven of a first touch, as a sentence without its full stop.
+std::string first_touch_text(const oracle::FirstTouch& touch);
 /// A line on the truth, a table of the answers, and the cast as a line for solve.
 std::string cast_text(const CastExamination& cast, const Terminal& terminal = {});
 

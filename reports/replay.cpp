@@ -186,14 +186,15 @@ std::string replay_command(const Subject& subject, const std::vector<std::string
          (subject.id.empty() ? "" : " --id " + shell_quoted(subject.id));
 }
 
-std::string piped_to_replay(const Configuration& configuration,
+std::string piped_to_replay(const Configuration& configuration, const std::optional<Vec3>& sweep,
                             const std::vector<std::string>& candidates) {
-  return piped(to_hex_json(configuration), candidates);
+  return piped(to_hex_json(configuration, sweep ? std::optional(Sweep(*sweep)) : std::nullopt),
+               candidates);
 }
 
 std::string replay_command(const Configuration& configuration,
                            const std::vector<std::string>& candidates) {
-  return piped_to_replay(configuration, candidates) + choice_of(candidates);
+  return piped_to_replay(configuration, {}, candidates) + choice_of(candidates);
 }
 
 }  // namespace touchstone

@@ -86,7 +86,7 @@ std::string replay_command(const std::string& name, const std::vector<std::strin
 std::string replay_command(const Subject& subject, const std::vector<std::string>& candidates);
 /// "echo '{…}' | ./touchstone replay -", which knows these candidates: for a configuration without
 /// an identity, every number as a hexadecimal float.
-std::string piped_to_replay(const Configuration& configuration,
+std::string piped_to_replay(const Configuration& configuration, const std::optional<Vec3>& sweep,
                             const std::vector<std::string>& candidates);
 /// Likewise, and these candidates have to answer.
 std::string replay_command(const Configuration& configuration,

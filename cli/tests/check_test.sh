@@ -21,9 +21,17 @@ for search in "" --search; do
     check $search --candidate reference --save /proc/none
 done
 
-# Laws of casts, with the command that shows what breaks one.
-expect 1 'replay cylinder-box/.*/[a-z-]* --candidates bullet$' check --candidate bullet --pair cylinder-box \
-  --law cast-free --class general,rim-face,edge-side,edge-cap --count 60
+# What breaks a law of casts is simplified, saved, replayed and known as a contact's failure is.
+casts=(check --candidate bullet --pair cylinder-box --law cast-free --class rim-face,edge-side,edge-cap --count 60)
+expect 1 'replay - --candidates bullet$' "${casts[@]}" --save "$folder/casts" --junit "$folder/casts.xml"
+also '^  truth: A ' '^cast-free, \|^  cast-free, cylinder-box, '
+grep -q '<testcase classname="bullet.cylinder-box" name="cast-free".*<failure ' "$folder/casts.xml" ||
+  failed "a cast's failure in JUnit XML"
+expect 0 'as expected  bullet, cylinder-box, cast-free' check --corpus "$folder/casts"
+expect 0 'cast-free .* nothing new  *known: ' "${casts[@]}" --known "$folder/casts"
+expect 0 '^bullet  *\(late\|missed\) ' replay "$(ls "$folder"/casts/*.json | head -n 1)" --candidates bullet
+sed -i 's/"cast-free"/"agreement"/' "$(ls "$folder"/casts/*.json | head -n 1)"
+expect 2 'law is "agreement": must be one of casts' check --corpus "$folder/casts"
 expect 0 '^  cast-free .* passed' check --candidate reference --pair cylinder-box --law cast-free --count 1
 expect 2 '--law is "cast-free": must be a law of contacts: ode has no casts' check --candidate ode --law cast-free
 # All laws. A line has no blanks at its end.

@@ -4,11 +4,26 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <iterator>
+#include <map>
+#include <set>
+#include <tuple>
+#include <utility>
 
+#include "candidates/host/worker_processes.hpp"
 #include "oracle/judge/cast_score.hpp"
+#include "properties/files/bytes.hpp"
 #include "properties/moves.hpp"
+#include "properties/simplify.hpp"
 
 namespace touchstone {
+
+/// On its way from a worker.
+using SimpleCast = std::pair<std::pair<Configuration, Vec3>, Violation>;
+template <>
+SimpleCast blank<SimpleCast>() {
+  return {{blank<Configuration>(), Vec3::Zero()}, {}};
+}
+
 namespace {
 
 /// Metres: the bar's, and what rounding of poses and of a fraction in double moves A.
@@ -161,6 +176,18 @@ const CastLaw* find_cast_law(std::string_view name) {
   return found == all_cast_laws().end() ? nullptr : &*found;
 }
 
+std::size_t place_of_law(std::string_view name) {
+  if (const CastLaw* const law = find_cast_law(name)) {
+    return all_laws().size() + static_cast<std::size_t>(law - all_cast_laws().data());
+  }
+  return static_cast<std::size_t>(&find_law(name) - all_laws().data());
+}
+
+const std::string& statement_of_law(std::string_view name) {
+  const CastLaw* const law = find_cast_law(name);
+  return law ? law->statement : find_law(name).statement;
+}
+
 namespace {
 
 constexpr std::uint64_t configurations_of_cast = 20;
@@ -188,48 +215,156 @@ std::optional<std::vector<Cast>> all_answered(std::span<const std::optional<Cast
   return result;
 }
 
-void try_law(CastLawResult& result, const std::vector<CastIdentity>& identities,
-             const std::vector<CastQuestion>& casts, const AnswersCasts& ask, const Bar& bar) {
+/// The answers to each cast and to what the law asks besides, all asked together. None where the
+/// law says nothing of the cast, or an answer is missing.
+using AllAnswers = std::vector<std::optional<std::vector<Cast>>>;
+AllAnswers answers_to(const CastLaw& law, std::span<const CastQuestion> casts,
+                      const AnswersCasts& ask) {
   std::vector<CastQuestion> asked;
-  std::vector<std::pair<std::size_t, std::size_t>> of_cast;  // its number, and how many it asks
-  for (std::size_t i = 0; i < casts.size(); ++i) {
+  std::vector<std::size_t> counts;
+  for (const CastQuestion& cast : casts) {
+    const std::size_t before = asked.size();
     std::vector<CastQuestion> more;
-    if (result.law->questions) more = result.law->questions(casts[i]);
-    if (more.empty() && result.law->questions) continue;
-    asked.push_back(casts[i]);
-    std::ranges::copy(more, std::back_inserter(asked));
-    of_cast.emplace_back(i, 1 + more.size());
+    if (law.questions) more = law.questions(cast);
+    if (!more.empty() || !law.questions) asked.push_back(cast);
+    std::ranges::move(more, std::back_inserter(asked));
+    counts.push_back(asked.size() - before);
   }
   const std::vector<std::optional<CastAnswer>> answers = ask(asked);
   std::span<const std::optional<CastAnswer>> left = answers;
-  for (const auto& [i, count] : of_cast) {
-    const auto answered = all_answered(left.first(count));
+  AllAnswers result;
+  for (const std::size_t count : counts) {
+    result.push_back(count > 0 ? all_answered(left.first(count)) : std::nullopt);
     left = left.subspan(count);
-    if (!answered) continue;
-    ++result.tried;
-    const auto violation = result.law->judge(casts[i], *answered, bar);
-    if (!violation) continue;
-    ++result.counts[violation->failure];
-    if (result.broken++ > 0) continue;
-    result.identity = to_string(identities[i]);
-    result.violation = violation;
   }
+  return result;
+}
+
+/// A cast that breaks a law, as it was met.
+struct MetCast {
+  const CastLaw* law;
+  std::string identity;
+  CastQuestion cast;
+  Violation violation;
+  std::string features;
+
+  auto kind() const {
+    return std::tuple(pair_of(cast.configuration), law, violation.failure, features);
+  }
+};
+
+/// The simplest cast that fails by the same name, and where the same features meet if these are
+/// known, with how it does.
+std::pair<CastQuestion, Violation> simplest(const MetCast& met, std::size_t max_trials,
+                                            const AnswersCasts& ask, const Bar& bar) {
+  Violation violation = met.violation;
+  const auto first_failing = [&](const std::vector<CastQuestion>& next) {
+    const AllAnswers answers = answers_to(*met.law, next, ask);
+    for (std::size_t i = 0; i < next.size(); ++i) {
+      if (!answers[i]) continue;
+      const auto found = met.law->judge(next[i], *answers[i], bar);
+      if (!found || found->failure != met.violation.failure) continue;
+      if (!met.features.empty() && meeting_features(next[i]) != met.features) continue;
+      violation = *found;
+      return i;
+    }
+    return next.size();
+  };
+  CastQuestion simple = simplified_in_batches(met.cast, first_failing, max_trials);
+  return {std::move(simple), std::move(violation)};
+}
+
+/// Simplifies the first of each kind.
+std::vector<Failure> simplified(const std::vector<MetCast>& all, const AnswersCasts& ask,
+                                const CheckOptions& options) {
+  std::map<decltype(std::declval<MetCast>().kind()), std::uint64_t> met;
+  std::set<std::tuple<Pair, const CastLaw*, std::string>> names;
+  std::vector<std::pair<const MetCast*, int>> firsts;  // with its number of trials
+  for (const MetCast& m : all) {
+    if (met[m.kind()]++ > 0) continue;
+    const bool is_first_of_name =
+        names.insert({pair_of(m.cast.configuration), m.law, m.violation.failure}).second;
+    firsts.emplace_back(&m, is_first_of_name ? trials_of_first : trials_of_others);
+  }
+  const auto texts = run_in_processes(
+      firsts.size(), options.workers,
+      [&](std::size_t i) {
+        const auto trials = static_cast<std::size_t>(firsts[i].second);
+        auto [cast, violation] = simplest(*firsts[i].first, trials, ask, options.bar);
+        return to_bytes(SimpleCast{{cast.configuration, cast.sweep}, violation});
+      },
+      [&](std::size_t i) { return firsts[i].first->identity; }, [](std::size_t) {});
+  std::vector<Failure> result;
+  for (std::size_t i = 0; i < texts.size(); ++i) {
+    if (texts[i].empty()) continue;  // interrupted before
+    const MetCast& m = *firsts[i].first;
+    const auto [cast, violation] = from_bytes<SimpleCast>(texts[i]);
+    result.push_back({m.law->name,
+                      {},
+                      {},
+                      m.identity,
+                      cast.first,
+                      violation,
+                      options.bar,
+                      {},
+                      {},
+                      m.features,
+                      met.at(m.kind()),
+                      cast.second});
+  }
+  return result;
 }
 
 }  // namespace
 
-std::vector<CastLawResult> check_casts(const AnswersCasts& answers,
-                                       std::span<const CastLaw* const> laws,
-                                       const CheckOptions& options) {
-  std::vector<CastLawResult> results;
+std::optional<Violation> broken(const CastLaw& law, const CastQuestion& cast,
+                                const AnswersCasts& answers, const Bar& bar) {
+  const auto answered = answers_to(law, {&cast, 1}, answers).front();
+  return answered ? law.judge(cast, *answered, bar) : std::nullopt;
+}
+
+std::vector<LawResult> check_casts(const AnswersCasts& answers,
+                                   std::span<const CastLaw* const> laws,
+                                   const CheckOptions& options) {
+  std::vector<LawResult> results;
+  std::vector<MetCast> met;
   for (const Pair pair : options.pairs) {
     const std::vector<CastIdentity> identities = casts_to_check(pair, options);
     std::vector<CastQuestion> casts;
     for (const CastIdentity& identity : identities) casts.push_back(make_cast(identity));
     for (const CastLaw* law : laws) {
-      CastLawResult result{law, pair};
-      try_law(result, identities, casts, answers, options.bar);
+      LawResult result{law->name, pair};
+      const AllAnswers all = answers_to(*law, casts, answers);
+      for (std::size_t i = 0; i < casts.size(); ++i) {
+        if (!all[i]) continue;
+        ++result.tried;
+        const auto violation = law->judge(casts[i], *all[i], options.bar);
+        if (!violation) continue;
+        ++result.broken;
+        ++result.counts[violation->failure];
+        met.push_back({law, to_string(identities[i]), casts[i], *violation,
+                       options.by_features ? meeting_features(casts[i]) : ""});
+      }
       if (result.tried > 0) results.push_back(result);
+    }
+  }
+  for (Failure& f : simplified(met, answers, options)) {
+    const auto of_law = std::ranges::find_if(results, [&](const LawResult& r) {
+      return r.law == f.law && r.pair == pair_of(f.configuration);
+    });
+    of_law->failures.push_back(std::move(f));
+  }
+  return results;
+}
+
+std::vector<LawResult> check_casts(const Candidate& candidate, std::span<const CastLaw* const> laws,
+                                   const CheckOptions& options) {
+  const auto ask = [&](std::span<const CastQuestion> casts) { return ask_casts(candidate, casts); };
+  std::vector<LawResult> results = check_casts(ask, laws, options);
+  for (LawResult& result : results) {
+    for (Failure& f : result.failures) {
+      f.candidate = candidate.name;
+      f.version = candidate.version;
     }
   }
   return results;

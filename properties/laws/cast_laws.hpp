@@ -1,7 +1,7 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
-#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -32,26 +32,29 @@ const std::vector<CastLaw>& all_cast_laws();
 /// Null if there is none of that name.
 const CastLaw* find_cast_law(std::string_view name);
 
+/// The place of a law among all of contacts, then all of casts, and what it states. Throw
+/// InvalidInput like find_law.
+std::size_t place_of_law(std::string_view name);
+const std::string& statement_of_law(std::string_view name);
+
 /// What answers casts, each question's answer at its place.
 using AnswersCasts =
     std::function<std::vector<std::optional<CastAnswer>>(std::span<const CastQuestion>)>;
 
-/// One law on the casts of one pair.
-struct CastLawResult {
-  const CastLaw* law;
-  Pair pair;
-  std::uint64_t tried = 0, broken = 0;
-  std::map<std::string, std::uint64_t> counts = {};  ///< of the broken, by the failure's name
-  /// The first cast that breaks it, and how.
-  std::string identity = {};
-  std::optional<Violation> violation = {};
-};
+/// Asks what the law asks and judges the answers. None if it holds, says nothing of this cast, or
+/// an answer is missing.
+std::optional<Violation> broken(const CastLaw& law, const CastQuestion& cast,
+                                const AnswersCasts& answers, const Bar& bar);
 
 /// Tries these laws on casts of every class that is selected, of one motion after the other, one
-/// for each twenty configurations that `options` asks of a class. Pairs and laws of which the
-/// candidate answers nothing are left out.
-std::vector<CastLawResult> check_casts(const AnswersCasts& answers,
-                                       std::span<const CastLaw* const> laws,
-                                       const CheckOptions& options);
+/// for each twenty configurations that `options` asks of a class; simplifies the first failure of
+/// each name, or of each name and features, as `check` does. Pairs and laws of which the candidate
+/// answers nothing are left out.
+std::vector<LawResult> check_casts(const Candidate& candidate, std::span<const CastLaw* const> laws,
+                                   const CheckOptions& options);
+/// The same of any function; its failures name no candidate.
+std::vector<LawResult> check_casts(const AnswersCasts& answers,
+                                   std::span<const CastLaw* const> laws,
+                                   const CheckOptions& options);
 
 }  // namespace touchstone

@@ -7,6 +7,8 @@
 #include <map>
 #include <string>
 
+#include "properties/simplify.hpp"
+
 namespace touchstone {
 namespace {
 
@@ -31,11 +33,19 @@ std::map<std::string, std::uint64_t> breaches(Fault fault) {
     return answers;
   };
   std::map<std::string, std::uint64_t> result;
-  for (const CastLawResult& r : check_casts(answer, laws, options)) {
-    EXPECT_GT(r.tried, 30U) << r.law->name;
-    EXPECT_EQ(r.broken > 0, r.violation.has_value());
-    EXPECT_EQ(r.broken > 0, is_cast_identity(r.identity)) << r.identity;
-    for (const auto& [failure, count] : r.counts) result[r.law->name + ' ' + failure] += count;
+  for (const LawResult& r : check_casts(answer, laws, options)) {
+    EXPECT_GT(r.tried, 30U) << r.law;
+    EXPECT_EQ(r.failures.size(), r.counts.size()) << "one of each name";
+    for (const auto& [failure, count] : r.counts) result[r.law + ' ' + failure] += count;
+    for (const Failure& f : r.failures) {
+      EXPECT_TRUE(is_cast_identity(f.identity)) << f.identity;
+      const CastQuestion simple{f.configuration, f.sweep.value()};
+      EXPECT_LT(complexity(simple), complexity(make_cast(parse_cast_identity(f.identity))));
+      const auto violation = broken(*find_cast_law(f.law), simple, answer, f.bar);
+      EXPECT_TRUE(violation.has_value()) << f.identity;
+      if (!violation) continue;
+      EXPECT_EQ(violation->failure, f.violation.failure);
+    }
   }
   return result;
 }

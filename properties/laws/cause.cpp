@@ -5,8 +5,9 @@
 #include <set>
 #include <tuple>
 
-#include "oracle/truth.hpp"
-#include "properties/laws/check.hpp"
+#include "oracle/first_touch.hpp"
+#include "properties/casts.hpp"
+#include "properties/laws/cast_laws.hpp"
 #include "properties/simplify.hpp"
 #include "reference/invalid_input.hpp"
 
@@ -61,12 +62,21 @@ struct FeatureAlong {
 
 }  // namespace
 
-std::string meeting_features(const Configuration& c) {
-  const oracle::Truth truth = oracle::truth(c);
+namespace {
+
+std::string features_along(const oracle::Truth& truth, const Configuration& c) {
   if (truth.ties != oracle::Ties::unique) return "tied";
   const Vec3& n = truth.normals.front().n;
   return FeatureAlong{in_frame(c.pose_a, n)}(c.a) + '-' +
          std::visit(FeatureAlong{in_frame(c.pose_b, n)}, c.b);
+}
+
+}  // namespace
+
+std::string meeting_features(const Configuration& c) { return features_along(oracle::truth(c), c); }
+std::string meeting_features(const CastQuestion& cast) {
+  const auto touch = oracle::first_touch(cast.configuration, Sweep(cast.sweep));
+  return touch.there ? features_along(*touch.there, cast.configuration) : "apart";
 }
 
 bool Cause::operator<(const Cause& other) const {
@@ -75,8 +85,12 @@ bool Cause::operator<(const Cause& other) const {
 }
 
 Cause cause_of(const Failure& f) {
-  const std::string features = f.features.empty() ? meeting_features(f.configuration) : f.features;
-  return {f.law, pair_of(f.configuration), features, f.violation.failure};
+  const auto features = [&] {
+    if (!f.features.empty()) return f.features;
+    return f.sweep ? meeting_features(CastQuestion{f.configuration, *f.sweep})
+                   : meeting_features(f.configuration);
+  };
+  return {f.law, pair_of(f.configuration), features(), f.violation.failure};
 }
 
 std::string to_string(const Cause& cause) {
@@ -85,7 +99,9 @@ std::string to_string(const Cause& cause) {
 
 std::optional<Group> group_met(const Failure& f) {
   try {
-    return parse_identity(f.identity).pose_class.group();
+    const Identity met = is_cast_identity(f.identity) ? parse_cast_identity(f.identity).pose
+                                                      : parse_identity(f.identity);
+    return met.pose_class.group();
   } catch (const InvalidInput&) {
     return std::nullopt;
   }
@@ -103,7 +119,7 @@ std::vector<Failure> in_order(const std::vector<LawResult>& results) {
     all.insert(all.end(), result.failures.begin(), result.failures.end());
   }
   const auto rank = [](const Failure& f) {
-    return std::tuple(&find_law(f.law), order_of(group_met(f)), ~f.met,
+    return std::tuple(place_of_law(f.law), order_of(group_met(f)), ~f.met,
                       complexity(f.configuration));
   };
   std::stable_sort(all.begin(), all.end(),

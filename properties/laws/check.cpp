@@ -336,13 +336,13 @@ std::vector<LawResult> check(CandidateProcess& candidate, const CheckOptions& op
   drop_unconfirmed(failures, options, candidate);
 
   std::vector<LawResult> results;
-  const auto result_of = [&](Pair pair, const Law* law) -> LawResult& {
+  const auto result_of = [&](Pair pair, const std::string& law) -> LawResult& {
     return *std::find_if(results.begin(), results.end(),
                          [&](const LawResult& r) { return r.pair == pair && r.law == law; });
   };
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (i == 0 || all[i].pair != all[i - 1].pair) {
-      for (const Law* law : options.laws) results.push_back({law, all[i].pair, 0, 0, 0, {}, {}, 0});
+      for (const Law* law : options.laws) results.push_back({law->name, all[i].pair});
     }
     const auto of_pair = std::span(results).last(options.laws.size());
     for (std::size_t law = 0; law < of_pair.size(); ++law) {
@@ -352,12 +352,12 @@ std::vector<LawResult> check(CandidateProcess& candidate, const CheckOptions& op
     }
   }
   for (const Found& f : failures) {
-    LawResult& result = result_of(f.identity.pose_class.pair, f.law);
+    LawResult& result = result_of(f.identity.pose_class.pair, f.law->name);
     ++result.broken;
     ++result.counts[f.violation.failure];
   }
   for (Failure& f : simplified(failures, options, candidate)) {
-    result_of(pair_of(f.configuration), &find_law(f.law)).failures.push_back(std::move(f));
+    result_of(pair_of(f.configuration), f.law).failures.push_back(std::move(f));
   }
   std::erase_if(results, [](const LawResult& r) { return r.tried + r.unsupported == 0; });
   for (LawResult& result : results) {

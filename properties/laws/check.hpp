@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "candidates/host/ask_cast.hpp"
 #include "properties/identity.hpp"
 #include "properties/laws/law.hpp"
 
@@ -36,6 +37,7 @@ struct Failure {
   Score score;                      ///< of that answer
   std::string features = {};        ///< that meet (meeting_features); empty where nobody has looked
   std::uint64_t met = 1;            ///< configurations that failed alike
+  std::optional<Vec3> sweep = {};   ///< of A, metres, world frame, where it is a cast that failed
 };
 
 /// The group of the pose class in which it was met first; absent where that is none of today's.
@@ -43,15 +45,15 @@ std::optional<Group> group_met(const Failure& failure);
 /// Groups by how much they matter to a user: everyday, degenerate, recorded, extreme; then none.
 int order_of(std::optional<Group> group);
 
-/// One law on one pair.
+/// One law, of contacts or of casts, on one pair.
 struct LawResult {
-  const Law* law;
+  std::string law;
   Pair pair;
   std::uint64_t tried = 0, broken = 0;
   std::uint64_t unsupported = 0;  ///< configurations that the candidate has no routine for
-  std::map<std::string, std::uint64_t> counts;  ///< of configurations, by the failure's name
+  std::map<std::string, std::uint64_t> counts = {};  ///< of configurations, by the failure's name
   /// One of each name (and features), in the order of their groups, of a group the simplest first.
-  std::vector<Failure> failures;
+  std::vector<Failure> failures = {};
   /// An equal part of what the pair's configurations took, which all laws are asked about together.
   double seconds = 0;
   /// Like `counts`, of the configurations that new_ones has taken from there.
@@ -99,6 +101,8 @@ inline constexpr int trials_of_first = 500, trials_of_others = 100;
 /// within 1e-6 rad of an axis counts as along it, since no engine tells them apart. "tied" where
 /// several normals are optimal.
 std::string meeting_features(const Configuration& configuration);
+/// Those of a cast meet where A touches B; of a sweep without a touch, "apart".
+std::string meeting_features(const CastQuestion& cast);
 
 /// What failures have in common that are likely to have one cause.
 struct Cause {

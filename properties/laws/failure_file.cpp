@@ -12,6 +12,7 @@
 #include "properties/files/configuration_json.hpp"
 #include "properties/files/disk.hpp"
 #include "properties/files/strict_json.hpp"
+#include "properties/laws/cast_laws.hpp"
 #include "reference/invalid_input.hpp"
 
 namespace touchstone {
@@ -48,21 +49,29 @@ std::vector<std::filesystem::path> files_of(const std::filesystem::path& path, c
 }
 
 ReplayedFailure replayed(const Failure& expected, const Limits& limits) {
-  std::unique_ptr<CandidateProcess> process;
+  using Result = ReplayedFailure::Result;
+  const Candidate* candidate = nullptr;
   try {
-    process = std::make_unique<CandidateProcess>(find_candidate(expected.candidate),
-                                                 expected.bar.threshold, limits);
+    candidate = &find_candidate(expected.candidate);
   } catch (const InvalidInput&) {
-    return {expected, ReplayedFailure::Result::skipped, "the candidate is not installed"};
+    return {expected, Result::skipped, "the candidate is not installed"};
   }
-  if (!process->candidate().has_routine_for(pair_of(expected.configuration))) {
-    return {expected, ReplayedFailure::Result::changed, "unsupported"};
+  std::optional<Violation> v;
+  if (expected.sweep) {
+    const CastQuestion cast{expected.configuration, *expected.sweep};
+    const auto ask = [&](std::span<const CastQuestion> q) { return ask_casts(*candidate, q); };
+    if (!ask({&cast, 1}).front()) return {expected, Result::changed, "unsupported"};
+    v = broken(*find_cast_law(expected.law), cast, ask, expected.bar);
+  } else {
+    if (!candidate->has_routine_for(pair_of(expected.configuration))) {
+      return {expected, Result::changed, "unsupported"};
+    }
+    CandidateProcess process(*candidate, expected.bar.threshold, limits);
+    v = broken(find_law(expected.law), expected.configuration, process, expected.bar);
   }
-  const auto v = broken(find_law(expected.law), expected.configuration, *process, expected.bar);
-  if (!v) return {expected, ReplayedFailure::Result::fixed, ""};
+  if (!v) return {expected, Result::fixed, ""};
   const bool same = v->failure == expected.violation.failure;
-  return {expected, same ? ReplayedFailure::Result::as_expected : ReplayedFailure::Result::changed,
-          v->failure};
+  return {expected, same ? Result::as_expected : Result::changed, v->failure};
 }
 
 void append_failures(const std::string& text, std::vector<Failure>& corpus) {
@@ -80,17 +89,19 @@ void append_failures(const std::string& text, std::vector<Failure>& corpus) {
 }  // namespace
 
 json to_json(const Failure& f) {
-  json result = {{"schema", schema},
-                 {"candidate", f.candidate},
-                 {"version", f.version},
-                 {"law", f.law},
-                 {"failure", f.violation.failure},
-                 {"detail", f.violation.detail},
-                 {"tolerance", f.bar.tolerance},
-                 {"threshold", f.bar.threshold},
-                 {"found", f.identity},
-                 {"configuration", to_hex_json(f.configuration)},
-                 {"answer", f.answer ? to_json(*f.answer, f.score) : json(nullptr)}};
+  json result = {
+      {"schema", schema},
+      {"candidate", f.candidate},
+      {"version", f.version},
+      {"law", f.law},
+      {"failure", f.violation.failure},
+      {"detail", f.violation.detail},
+      {"tolerance", f.bar.tolerance},
+      {"threshold", f.bar.threshold},
+      {"found", f.identity},
+      {"configuration",
+       to_hex_json(f.configuration, f.sweep ? std::optional(Sweep(*f.sweep)) : std::nullopt)},
+      {"answer", f.answer ? to_json(*f.answer, f.score) : json(nullptr)}};
   if (!f.features.empty()) result["features"] = f.features;
   return result;
 }
@@ -106,15 +117,24 @@ Failure failure_from_json(const json& object) {
     throw InvalidInput("failure", shown(failure),
                        fmt::format("must be one of {}", fmt::join(failures, ", ")));
   }
-  Failure result{find_law(text(object, "law")).name,
+  const std::string law = text(object, "law");
+  const GivenConfiguration given = cast_from_json(member(object, "configuration", ""));
+  const bool is_of_casts = find_cast_law(law);
+  if (is_of_casts != given.sweep.has_value()) {
+    throw InvalidInput("law", shown(law),
+                       given.sweep ? "must be one of casts: its configuration has a sweep"
+                                   : "must be one of contacts: its configuration has no sweep");
+  }
+  Failure result{is_of_casts ? law : find_law(law).name,
                  text(object, "candidate"),
                  text(object, "version"),
                  text(object, "found"),
-                 configuration_from_json(member(object, "configuration", "")).configuration,
+                 given.configuration,
                  {failure, 0, text(object, "detail")},
                  {bar_number(object, "tolerance"), bar_number(object, "threshold")},
                  {},
                  {}};
+  if (given.sweep) result.sweep = given.sweep->translation();
   if (object.contains("features")) result.features = text(object, "features");
   const json answer = object.value("answer", json());
   if (answer.is_null()) return result;

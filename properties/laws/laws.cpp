@@ -419,11 +419,25 @@ const std::vector<Law>& all_laws() {
 const Law& find_law(std::string_view name) { return named(all_laws(), name, "--law"); }
 
 const std::vector<std::string>& all_failures() {
-  static const std::vector<std::string> failures = {
-      "missed",         "phantom",    "shallow",   "overdeep",       "wrong-normal",
-      "off-body",       "few-points", "jump",      "not-invariant",  "not-finite",
-      "failed",         "crashed",    "timed-out", "shallow-points", "overdeep-points",
-      "phantom-points", "no-points"};
+  static const std::vector<std::string> failures = {"missed",
+                                                    "phantom",
+                                                    "shallow",
+                                                    "overdeep",
+                                                    "wrong-normal",
+                                                    "off-body",
+                                                    "few-points",
+                                                    "jump",
+                                                    "not-invariant",
+                                                    "not-finite",
+                                                    "failed",
+                                                    "crashed",
+                                                    "timed-out",
+                                                    "shallow-points",
+                                                    "overdeep-points",
+                                                    "phantom-points",
+                                                    "no-points",
+                                                    "early",
+                                                    "late"};
   return failures;
 }
 

@@ -287,7 +287,7 @@ TEST(Check, TellsFailuresInEverydayPosesFirst) {
 std::string told(const std::vector<LawResult>& results) {
   std::string text;
   for (const LawResult& r : results) {
-    text += r.law->name + ' ' + pair_name(r.pair) + ' ' + std::to_string(r.tried) + ' ' +
+    text += r.law + ' ' + pair_name(r.pair) + ' ' + std::to_string(r.tried) + ' ' +
             std::to_string(r.broken) + '\n';
     for (const auto& [failure, count] : r.counts) text += failure + std::to_string(count) + '\n';
     for (const Failure& f : r.failures) {
@@ -357,8 +357,8 @@ TEST(Check, HoldsHostileConfigurationsToTheLawsThatApply) {
   options.count = 400;
   std::uint64_t all = 0, moved = 0;
   for (const LawResult& result : check(reference, options, [](auto, auto) {})) {
-    if (result.law->name == "answers") all = result.tried;
-    if (result.law->name == "rotation") moved = result.tried;
+    if (result.law == "answers") all = result.tried;
+    if (result.law == "rotation") moved = result.tried;
     for (const Failure& f : result.failures) {
       ADD_FAILURE() << f.law << ", " << f.identity << ": " << f.violation.detail;
     }
@@ -419,8 +419,8 @@ TEST(Check, AFailureThatNeedsEarlierQuestionsIsNone) {
   EXPECT_GT(seen, 5);
   for (const LawResult& result : check(tiring, options, [](auto, auto) {})) {
     EXPECT_EQ(result.tried, options.count);
-    EXPECT_EQ(result.broken, 0u) << result.law->name;
-    EXPECT_TRUE(result.failures.empty()) << result.law->name;
+    EXPECT_EQ(result.broken, 0u) << result.law;
+    EXPECT_TRUE(result.failures.empty()) << result.law;
   }
 }
 
