@@ -97,7 +97,8 @@ void add_answers(Casts& casts, const CastCell& cell, const Candidate& candidate,
              score.outcome,
              score.distance,
              score.normal_regret,
-             replay_command(id, {candidate.name})};
+             replay_command(id, {candidate.name}),
+             answers[i]->cast ? std::optional(answers[i]->cast->fraction) : std::nullopt};
   }
   if (row.count == 0) return;
   if (!distances.empty()) {

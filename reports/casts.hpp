@@ -31,7 +31,8 @@ struct Casts {
     std::string id, pair, group, candidate;
     CastOutcome outcome = CastOutcome::agree;
     std::optional<double> distance, normal_regret;
-    std::string replay;  ///< the command that shows it again
+    std::string replay;                   ///< the command that shows it again
+    std::optional<double> fraction = {};  ///< answered; absent where there was no answer
   };
   std::uint64_t count = 0;  ///< casts of each motion in a pair and group
   std::vector<Row> results;

@@ -361,6 +361,7 @@ void members(auto& a, Casts::Worst& w) {
   a.named("distance", w.distance);
   a.named("normal_regret", w.normal_regret, rule::not_negative);
   a.named("replay", w.replay);
+  a.named("fraction", w.fraction, rule::share);
 }
 void members(auto& a, Casts& c) {
   a.named("count", c.count);

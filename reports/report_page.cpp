@@ -8,6 +8,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include "oracle/first_touch.hpp"
+#include "oracle/judge/cast_score.hpp"
+#include "properties/casts.hpp"
+#include "properties/files/answer_json.hpp"
+#include "properties/files/configuration_json.hpp"
 #include "reports/findings.hpp"
 #include "reports/pages/page.hpp"
 #include "reports/replay.hpp"
@@ -33,6 +38,16 @@ const json& shown_parts() {
     },
     "summary": 4, "factors": 4, "contrasts": 4,
     "trends": {"bins": {"median": 2, "max": 2, "*": true}, "*": true},
+    "casts": {
+      "worst": {
+        "truth": {
+          "signed_distance": true, "normals": 10, "ties": true,
+          "patch": {"kind": true, "centroid": 10, "outline": 10}
+        },
+        "*": true
+      },
+      "*": true
+    },
     "worst": {
       "id": true, "pair": true, "group": true, "class": true, "candidate": true, "outcome": true,
       "severity": 10, "replay": true, "configuration": true, "faces": true,
@@ -88,6 +103,21 @@ json first_worst(const std::vector<WorstCase>& worst) {
   return cases;
 }
 
+/// What a picture of each worst cast needs: the cast, where A touches if it does, and the truth
+/// there or, without a touch, where A starts.
+void add_pictures(json& worst) {
+  for (json& w : worst) {
+    const auto [c, sweep] = make_cast(parse_cast_identity(w["id"].get<std::string>()));
+    const oracle::FirstTouch touch = oracle::first_touch(c, Sweep(sweep));
+    w["configuration"] = to_json(c, Sweep(sweep));
+    w["faces"] = faces_json(c.b);
+    w["touch"] = touch.there ? json(touch.fraction.hi.get_d()) : json(nullptr);
+    w["truth"] = touch.there
+                     ? to_json(swept(c, Sweep(sweep), touch.fraction.hi.get_d()), *touch.there)
+                     : to_json(c, oracle::truth(c));
+  }
+}
+
 json findings_json(const Report& report) {
   json list = json::array();
   for (const Finding& f : findings(report)) {
@@ -102,6 +132,7 @@ std::string report_page(const Report& report) {
   json data = to_json(report);
   data["worst"] = first_worst(report.worst);
   data["findings"] = findings_json(report);
+  if (report.casts) add_pictures(data["casts"]["worst"]);
   for (std::size_t i = 0; i < report.results.size(); ++i) {
     const std::optional<QueryTime>& time = report.results[i].time;
     if (time && time->p95 && has_slow_tail(*time)) data["results"][i]["has_slow_tail"] = true;

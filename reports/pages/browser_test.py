@@ -232,6 +232,9 @@ class PageTest(unittest.TestCase):
             self.assertLessEqual(box[2], width, place)
             self.assertLessEqual(box[3], height, place)
 
+    def picture(self, selector):
+        return self.driver.execute_script("return arguments[0].toDataURL()", self.find(selector))
+
     def assert_pictures_and_keys(self, max_stops):
         """Every picture has a name, every table and chart is one tab stop."""
         self.assertEqual(self.driver.execute_script(nameless_pictures), [])
@@ -698,7 +701,13 @@ class Report(PageTest):
         self.assertRegex(cell.text, r"^\d+\.\d%\s\d+ ")
         self.driver.execute_script("arguments[0].scrollIntoView({block: 'center'})", cell)
         cell.click()
-        self.assertRegex(self.find("#cast-command .command").text, "replay cylinder-[a-z]+/.*/[a-z-]+")
+        self.assertRegex(self.find("#cast-worst .command").text, "replay cylinder-[a-z]+/.*/[a-z-]+")
+        # The worst of them is drawn where A touches; its slider takes A to where the candidate let it go.
+        self.wait_until(lambda: self.all("#cast-worst .sweep button"))
+        touching, answered = self.picture("#cast-worst canvas"), self.all("#cast-worst .sweep button")[-1]
+        self.assertRegex(answered.text, "^bullet")
+        answered.click()
+        self.assertNotEqual(self.picture("#cast-worst canvas"), touching)
 
     def test_drakes_own_numbers_stand_beside_ours(self):
         rows = [row.text for row in self.all("#drake-table tbody tr")]
@@ -795,9 +804,6 @@ class OtherPages(PageTest):
         self.choose("#other", self.driver.execute_script(
             "return String(data.motion.runs.findIndex(r => r.name === arguments[0]))", name))
 
-    def picture(self, selector):
-        return self.driver.execute_script("return arguments[0].toDataURL()", self.find(selector))
-
     def assert_models_are_drawn(self, canvas="#right"):
         """Without what stands for its bodies the picture is another one."""
         with_models = self.picture(canvas)
@@ -833,8 +839,8 @@ class OtherPages(PageTest):
         self.open(page)
         self.assertRegex(self.find("#headline").text, "^A (never )?touches B")
         self.assertNotEqual(self.find("#cast-table").text, "")
-        slider, seen = self.find("#sweep-part"), self.picture("#view")
-        self.find("#sweep-stops button").click()
+        slider, seen = self.find(".sweep input"), self.picture("#view")
+        self.find(".sweep button").click()
         self.assertEqual(slider.get_attribute("value"), "0")
         self.assertNotEqual(self.picture("#view"), seen, "A is not back at its start")
         for name in ("plane/general", "sphere/general", "capsule/general", "cylinder/general", "convex/general",

@@ -23,7 +23,7 @@ extern const std::string_view report_js, report_failures_js, report_tables_js, r
     report_method_js, casts_js;
 extern const std::string_view compare_js, replay_js, stability_js, choose_js, engines_js, motion_js,
     history_js;
-extern const std::string_view bodies_js, view_js, chart_js, vega_js;
+extern const std::string_view bodies_js, view_js, sweep_js, chart_js, vega_js;
 
 namespace {
 
@@ -41,12 +41,13 @@ PageParts parts_of(Page page) {
               "How right, and how fast, are cylinder contacts?",
               report_html,
               true,
-              {bodies_js, view_js, stability_js, engines_js, report_js, report_failures_js,
-               report_tables_js, report_charts_js, casts_js, report_method_js}};
+              {bodies_js, view_js, sweep_js, stability_js, engines_js, report_js,
+               report_failures_js, report_tables_js, report_charts_js, casts_js, report_method_js}};
     case Page::comparison:
       return {"two reports compared", "What has changed?", compare_html, true, {compare_js}};
     case Page::replay:
-      return {"one configuration", "", replay_html, false, {bodies_js, view_js, replay_js}};
+      return {
+          "one configuration", "", replay_html, false, {bodies_js, view_js, sweep_js, replay_js}};
     case Page::stability:
       return {"stability of cylinder contacts",
               "How steady are cylinder contacts near degenerate poses?",

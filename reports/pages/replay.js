@@ -82,13 +82,6 @@ const cast = data.cast, castAnswers = Object.entries(cast?.answers ?? {}), touch
 const truth = touches ? cast.truth.there : data.truth, given = data.configuration, answers = Object.entries(data.answers);
 const touch = cast ? Number(cast.truth.fraction[1]) : 0;
 let part = touch;
-function moved() {
-  if (!cast) return given;
-  const {position, orientation: [w, x, y, z]} = given.pose_a, angle = part * length(given.spin ?? [0, 0, 0]);
-  const [c, s] = [Math.cos(angle / 2), angle ? times(given.spin, Math.sin(angle / 2) / length(given.spin)) : [0, 0, 0]];
-  const q = add(add(times([x, y, z], c), s, w), cross(s, [x, y, z]));
-  return {...given, pose_a: {position: add(position, given.sweep, part), orientation: [c * w - dot(s, [x, y, z]), ...q]}};
-}
 const shortest = v => v === null ? '–' : plainNumber(v);
 const vectorCell = v => element('td', {class: 'text wrap'}, vector(v));
 const vector = v => v === null ? '–' : `(${v.map(c => c === null ? 'nan' : plainNumber(c)).join(', ')})`;
@@ -100,7 +93,7 @@ let scene, shows;
 
 // Moves the origin to the contact of the true normal `index`.
 function place(index) {
-  scene = makeScene(moved(), truth, index, data.faces);
+  scene = makeScene(cast ? sweptTo(given, part) : given, truth, index, data.faces);
   shows = {contact: [], smaller: [smallerBody(scene)], whole: scene.bodies};
 }
 function aim(index) {
@@ -139,30 +132,20 @@ function showAll(all) {
   redraw();
 }
 
-// The slider, with a button for each fraction, and what candidates answer.
+// The slider, and what candidates answer.
 function sweepControls() {
-  const slider = byId('sweep-part'), shownPart = byId('sweep-value');
-  const move = to => {
+  const stops = [[`truth: ${cast.truth.status}`, touch], ...castAnswers.filter(([, a]) => a.fraction !== undefined)
+      .map(([name, a]) => [`${name}: ${a.status}`, a.fraction])];
+  byId('sweep').append(sweepControl(part, stops, to => {
     part = to;
-    shownPart.textContent = `${shortest(part)} of the sweep`;
     place(Number(byId('slice-normal').value || 0));
     redraw();
-  };
-  slider.addEventListener('input', () => move(Number(slider.value)));
-  const stops = [['start', 0], [`truth: ${cast.truth.status}`, touch], ...castAnswers.filter(([, a]) => a.fraction !== undefined)
-      .map(([name, a]) => [`${name}: ${a.status}`, a.fraction])];
-  byId('sweep-stops').append(...stops.map(([name, at]) => {
-    const button = element('button', {type: 'button'}, `${name} ${plainNumber(at, 4)}`);
-    button.addEventListener('click', () => { slider.value = at; move(at); });
-    return button;
   }));
-  slider.value = part;
-  shownPart.textContent = `${shortest(part)} of the sweep`;
   byId('cast-table').append(table([textColumn('candidate'), textColumn('outcome'), textColumn('answer'), 'fraction', 'left there', 'regret', textColumn('normal')],
       castAnswers.map(([n, a]) => [named(n), element('td', {class: 'text'}, a.score.outcome), element('td', {class: 'text'}, a.reason ? `${a.status}: ${a.reason}` : a.status),
           shortest(a.fraction ?? null), exponent(a.score.distance), exponent(a.score.normal_regret), vectorCell(a.normal ?? null)]),
       'When A touches first; what is left is the signed distance there, relative to the smaller size'));
-  for (const id of ['sweep', 'casts']) byId(id).hidden = false;
+  byId('casts').hidden = false;
   document.querySelector('fieldset.legend').style.display = 'none';
   document.querySelector('#answers h2').textContent = 'Answers before A moves';
   if (touches) document.querySelector('#truth h2').textContent = 'Truth where A touches';

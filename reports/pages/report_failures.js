@@ -80,7 +80,7 @@ function worstCase(w) {
           fold('Configuration', element('pre', {}, JSON.stringify(w.configuration))))));
 }
 
-// A case is drawn when it comes into sight or is printed.
+// A case is drawn when it comes into sight or is printed. A cast has a slider, at first where A touches.
 let undrawn = [];
 addEventListener('beforeprint', () => { for (const draw of undrawn) draw(); });
 function caseView(w) {
@@ -88,14 +88,24 @@ function caseView(w) {
   const draw = () => {
     inSight.disconnect();
     undrawn = undrawn.filter(other => other !== draw);
-    const scene = makeScene(w.configuration, w.truth, 0, w.faces), view = makeView(canvas);
-    scene.marks = marksOf(scene, w.truth, Object.entries(w.answers));
+    const view = makeView(canvas);
+    let scene;
+    const place = (configuration, marked = true) => {
+      scene = makeScene(configuration, w.truth, 0, w.faces);
+      scene.marks = marked ? marksOf(scene, w.truth, Object.entries(w.answers ?? {})) : [];
+    };
+    const {sweep} = w.configuration, start = w.touch ?? w.fraction ?? 0, moveTo = t => place(sweptTo(w.configuration, t), w.touch !== null);
+    if (sweep) moveTo(start); else place(w.configuration);
     aimView(view, scene.normal, scene.across);
     const thin = closeUp(view, scene), views = [['Whole bodies', () => fitView(view, mainBodies(scene))],
       ['Contact', () => fitView(view, [], scene.reaches.contact)], ...(thin ? [['Thin body', () => fitView(view, [], thin.reach, thin.about)]] : [])];
     let at = thin ? 2 : 0;
     views[at][1]();
     const redraw = () => drawContact(view, scene);
+    if (sweep) {
+      const stops = [...(w.touch === null ? [] : [['truth', w.touch]]), ...(w.fraction === null ? [] : [[w.outcome === 'missed' ? `${w.candidate}: never` : w.candidate, w.fraction]])];
+      figure.append(sweepControl(start, stops, t => { moveTo(t); redraw(); }));
+    }
     steerView(view, redraw);
     onThemeChange(redraw);
     redraw();
@@ -112,8 +122,9 @@ function caseView(w) {
   inSight.observe(canvas);
   undrawn.push(draw);
   const other = element('button', {type: 'button'}, 'Contact');
-  return element('figure', {}, canvas, element('p', {class: 'controls quiet'}, other, element('span', {class: 'body-a'}, 'cylinder A'),
+  const figure = element('figure', {}, canvas, element('p', {class: 'controls quiet'}, other, element('span', {class: 'body-a'}, 'cylinder A'),
       element('span', {class: 'body-b'}, nameOfB(w.configuration.b)), element('span', {}, '◆ truth; drag to turn')));
+  return figure;
 }
 follow(() => {
   galleryCount = atOnce;
