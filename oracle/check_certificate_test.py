@@ -539,6 +539,27 @@ class CastProof(CheckerTest):
         never["apart"][1]["until"] = "1"
         del never["pair"], never["distance"]
         self.assertEqual(checker.verdict(text(never)), (True, "accepted: free for 1 of its sweep"))
+        self.assert_rejected(changed(never, ("apart", 1, "until"), "9/8"), "in order, from 0 to 1")
+        self.assert_rejected(changed(never, ("apart", 1, "until"), "1/2"), "the parts end before 1")
+        parts = [{"until": "1", "normal": ["0", "0", "1"]}] * (checker.MAX_PARTS + 1)
+        self.assert_rejected(changed(never, ("apart",), parts), "apart is an array")
+
+    def test_a_normal_holds_at_the_start_of_its_part_too(self):
+        rising = changed(changed(let_down(), ("configuration", "sweep"), [0.0, 0.0, 4.0]), ("exact", "sweep"), ["0", "0", "4"])
+        rising["apart"] = [{"until": "1", "normal": ["0", "0", "1"]}]
+        del rising["pair"], rising["distance"]
+        self.assert_accepted(rising)
+        for form, low in (("configuration", 2.0), ("exact", "2")):  # in the sphere by 1 m
+            rising[form]["pose_a"]["position"][2] = low
+        self.assert_rejected(rising, "gap along the normal")
+
+    def test_of_a_rounded_body_the_rounding_counts_in_gap_and_pair(self):
+        rounded = let_down()
+        for form, rounding in (("configuration", 0.25), ("exact", "1/4")):
+            rounded[form]["a"]["rounding"] = rounding
+        rounded["pair"]["a"] = ["0", "0", "-3/4"]  # of the core
+        self.assertRegex(checker.verdict(text(rounded))[1], "^accepted: free for 0.5 of its sweep, then 0 m apart")
+        self.assert_rejected(changed(rounded, ("apart", 1, "until"), "9/16"), "gap along the normal")
 
     def test_each_fault_is_rejected(self):
         farther = changed(let_down(), ("apart", 1, "until"), "1001/2000")
