@@ -31,3 +31,16 @@ grep -qF '"engine":"rapier"' "$work/report.json" || failed "no history in report
 text=$("$program" compare rapier@0.12 rapier@0.20) && failed "no regression of 0.20"
 grep -q '^rapier: worse on cylinder-cylinder, ' <<<"$text" || failed "$text"
 grep -qF 'rapier: version 0.12.0 before, 0.20.0 now.' <<<"$text" || failed "$text"
+
+# A file of tests expects what its release answers, and a program that asks one repeats it.
+cd "$work"
+asks() { ln -sfn "$TOUCHSTONE_NPM/versions/@dimforge/rapier3d-compat@$1/node_modules" . && node "$2"; }
+install_release rapier@0.15 "$TOUCHSTONE_NPM/versions"
+for release in 0.12 0.15; do
+  "$program" export --as js --engine rapier@$release --limit 9 >contacts.test.mjs
+  grep -q "npm install @dimforge/rapier3d-compat@$release &&" contacts.test.mjs || failed "not of $release"
+  asks $release contacts.test.mjs >printed || failed "$(cat printed)"
+done
+"$program" replay cylinder-box/general/1/0 --emit rapier-world@0.12 >reproducer.mjs
+seen=$(grep -oP 'signed distance \K[-.0-9e]+' reproducer.mjs)
+asks 0.12 reproducer.mjs | grep -qF -- "$seen" || failed "not $seen: $(asks 0.12 reproducer.mjs)"

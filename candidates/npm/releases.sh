@@ -55,7 +55,7 @@ install_release() {
     local near
     near=$(printf '%s\n' "$wanted" "$releases" | grep -v -- - | sort -V | grep -xF -C 2 -- "$wanted" |
       grep -vxF -- "$wanted" | paste -s -d ,)
-    printf 'error: --candidates is "%s": must be a release of %s; the nearest are %s\n' \
+    printf 'error: the engine is "%s": must be a release of %s; the nearest are %s\n' \
       "$1" "$package" "${near//,/, }" >&2
     return 2
   fi

@@ -44,7 +44,7 @@ install_release jolt@0.10.4-beta.1 "$to" 2>/dev/null
 is "a trial" "$(cat "$to/jolt-physics@0.10.4-beta.1/asked")" jolt-physics@0.10.4-beta.1
 
 text=$(install_release jolt-margin:0.01@0.9.5 "$to" 2>&1) && failed "0.9.5 is no release"
-is "an unknown one" "$text" 'error: --candidates is "jolt-margin:0.01@0.9.5": must be a release of jolt-physics; the nearest are 0.1.0, 0.9.0, 0.10.0, 0.10.3'
+is "an unknown one" "$text" 'error: the engine is "jolt-margin:0.01@0.9.5": must be a release of jolt-physics; the nearest are 0.1.0, 0.9.0, 0.10.0, 0.10.3'
 text=$(install_release havok@7 "$to" 2>&1) && failed "7 is no release"
 is "one above all" "${text##*; }" "the nearest are 0.11.0, 1.0.0"
 

@@ -18,6 +18,8 @@ expect 2 '--as is "xml": must be one of gtest, boost, unittest, doctest, js, rus
 expect 2 '--engine is "ode": must be one of mujoco, mujoco3, mujoco3-single for --as mjcf' export --as mjcf --engine ode
 expect 2 '--engine is "ode": must be one of jolt, .* for --as js' export --as js --engine ode
 expect 2 '--engine is missing: must name the engine' export --as gtest
+expect 2 '--engine is "rapier@99": is unavailable: .*@dimforge/rapier3d-compat@99 is not in' export --as js --engine rapier@99
+expect 2 '--engine is "rapier-world@0.13": must be rapier-world or rapier@ and a release' export --as js --engine rapier-world@0.13
 expect 2 '--pair is "cylinder-plane": must be one that havok knows' export --as js --engine havok --pair cylinder-plane
 expect 2 '--out.*No space left' export $lying --count 1 --format csv --out /dev/full
 

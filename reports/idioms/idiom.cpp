@@ -82,14 +82,23 @@ bool fits(const Program& program, const Idiom& idiom) {
 }
 
 Program program_of(const Idiom& idiom, const std::string& engine) {
+  // A release of npm's is asked by the engine's program.
+  const std::string_view name = npm_release(engine).empty() ? engine : family_of(engine);
+  if (name == "rapier-world" && name != engine) {
+    throw InvalidInput("--engine", in_quotes(engine),
+                       "must be rapier-world or rapier@ and a release: what older worlds answer "
+                       "depends on what they were asked before");
+  }
   // Any function of Python, of which the file imports what has the engine's name.
-  if (&idiom.language == &python) return {engine, engine, engine, python, callable_py_template, ""};
+  if (&idiom.language == &python) return {name, engine, name, python, callable_py_template, ""};
   std::vector<std::string_view> names;
   for (const Program& p : programs()) {
     if (!fits(p, idiom)) continue;
-    if (p.engine == engine) {
-      if (has_program(idiom.language)) return p;
-      return {p.engine, p.candidate, p.title, idiom.language, no_program, p.tags};
+    if (p.engine == name) {
+      Program found = p;
+      if (name != engine) found.candidate = engine;
+      if (has_program(idiom.language)) return found;
+      return {p.engine, found.candidate, p.title, idiom.language, no_program, p.tags};
     }
     if (names.empty() || names.back() != p.engine) names.push_back(p.engine);
   }
@@ -98,14 +107,14 @@ Program program_of(const Idiom& idiom, const std::string& engine) {
       fmt::format("must be one of {} for --as {}", fmt::join(names, ", "), idiom.name));
 }
 
-/// What asks the engine; nothing where it is not installed.
+/// What asks the engine; nothing where it is not installed. A release that is named has to be, as
+/// the file is about what that release gets wrong.
 const Candidate* installed(const Program& program) {
-  const NpmEngine* const engine = find_npm_engine(family_of(program.candidate));
-  if (engine && !npm_obstacle(*engine).empty()) return nullptr;
   try {
     return &find_candidate(program.candidate);
-  } catch (const InvalidInput&) {
-    return nullptr;
+  } catch (const InvalidInput& e) {
+    if (npm_release(program.candidate).empty()) return nullptr;
+    throw InvalidInput("--engine", e.value(), e.remedy());
   }
 }
 
@@ -174,7 +183,9 @@ std::string idiom_file(const IdiomRequest& request) {
     throw InvalidInput("--pair", in_quotes(pair_name(request.pairs.front())),
                        fmt::format("must be one that {} knows", program.engine));
   }
+  const std::string_view release = tag_of_release(program.candidate);
   Tags tags = names_in(program.tags);
+  tags.push_back(release);
   const auto has = [&](std::string_view tag) {
     return std::find(tags.begin(), tags.end(), tag) != tags.end();
   };
@@ -192,12 +203,12 @@ std::string idiom_file(const IdiomRequest& request) {
   }
 
   std::string version = candidate ? candidate->version : "(not installed)";
-  if (candidate && find_npm_engine(family_of(program.candidate))) version += " of npm";
+  if (candidate && find_npm_engine(program.candidate)) version += " of npm";
   Texts texts = idiom.texts;
   texts.merge(Texts{{"engine", std::string(program.title)},
                     {"engine_version", version},
                     {"command", command_of(request)},
-                    {"module", with_underscores(request.engine)},
+                    {"module", with_underscores(std::string(program.engine))},
                     {"single_precision", is_python ? question.is_single ? "True" : "False"
                                          : question.is_single ? "true"
                                                               : "false"},
@@ -207,8 +218,9 @@ std::string idiom_file(const IdiomRequest& request) {
                                                  : "0, 0, 1"},
                     {"order", habit.real_part_first ? "w, x, y, z" : "x, y, z, w"}});
   if (&idiom.language == &rust) texts["axis"] = with_points(texts["axis"]);
-  texts.merge(npm_texts(program, program.engine, candidate, cases.front().configuration));
-  const Tags of_file = {"engine", "solid", idiom.name, habit.real_part_first ? "wxyz" : "xyzw"};
+  texts.merge(npm_texts(program, program.candidate, candidate, cases.front().configuration));
+  const Tags of_file = {"engine", "solid", release, idiom.name,
+                        habit.real_part_first ? "wxyz" : "xyzw"};
   const auto tags_of = [&](const IdiomCase& c) {
     const Pair pair = pair_of(c.configuration);
     Tags result = names_in(tags_for(program, pair));
@@ -249,7 +261,7 @@ std::string idiom_file(const IdiomRequest& request) {
          case_texts(c, fmt::format("{} {}", program.title, version), idiom.language, habit)) {
       texts[name] = text;
     }
-    for (auto& [name, text] : npm_texts(program, program.engine, candidate, c.configuration)) {
+    for (auto& [name, text] : npm_texts(program, program.candidate, candidate, c.configuration)) {
       texts[name] = text;
     }
     Tags of_case = tags_of(c);

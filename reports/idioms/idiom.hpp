@@ -12,7 +12,7 @@ namespace touchstone {
 /// Tests of an engine's contacts as its own project would write them.
 struct IdiomRequest {
   std::string idiom;   ///< one of `idioms`
-  std::string engine;  ///< a name of `reproducer_engines`
+  std::string engine;  ///< a name of `reproducer_engines`; of npm's also a release, "rapier@0.14"
   std::vector<Pair> pairs;
   std::uint64_t seed, limit;
   Bar bar = {};

@@ -94,6 +94,10 @@ std::string_view tags_for(const Program& program, Pair pair) {
   return program.engine == "physx" && pair == Pair::plane ? "world,x,float" : program.tags;
 }
 
+std::string_view tag_of_release(std::string_view name) {
+  return npm_release(name).empty() ? "newest" : "release";
+}
+
 std::string string_literal(std::string_view text) {
   std::string result = "\"";
   for (const char c : text) {

@@ -49,6 +49,9 @@ std::string string_literal(std::string_view text);
 /// The tags of its lines for that pair.
 std::string_view tags_for(const Program& program, Pair pair);
 
+/// "release" where the name of an engine of npm has one, which may lack what the newest has.
+std::string_view tag_of_release(std::string_view name);
+
 /// What stands in the programs of npm's engines alone. `name`: that of the engine as it was given.
 /// Throws InvalidInput (field "--emit").
 Texts npm_texts(const Program& program, std::string_view name, const Candidate* candidate,

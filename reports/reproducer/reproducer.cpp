@@ -208,7 +208,7 @@ std::string reproducer(std::string_view name, std::string_view language, const C
       {shape, tag_of_distance(truth.signed_distance.midpoint(), allowed, bar.threshold),
        candidate && candidate->command() && candidate->command()->in_frames ? "frames" : "lines",
        program.engine.empty() ? "plugin" : "engine", has_floor(program) ? "floor" : "solid",
-       is_test ? "test" : "program"});
+       is_test ? "test" : "program", tag_of_release(name)});
   const bool is_round = shape == "cylinder" || shape == "capsule";
   texts.merge(
       Texts{{"engine", title},
