@@ -98,6 +98,7 @@ for variant in bullet-margin-0 bullet-float bullet-float-margin-0 fcl-indep fcl-
   expect 0 '^#include <\(Bullet\|fcl\|ccd\)' replay $rim --emit $variant
   ! grep -q 'touchstone-.*so' <<<"$printed" || failed "$ran loads a plug-in"
 done
+expect 0 '^#include <coal/collision.h>' replay $rim --emit coal
 expect 0 'touchstone-bullet.so' replay $rim --emit bullet-persistent
 expect 0 'npm install jolt-physics@' replay $rim --emit jolt
 expect 0 'TEST_CASE("TestCollideCylinderVsBox")' replay $rim --emit jolt-margin:0.01 --language c++

@@ -13,8 +13,8 @@ namespace touchstone {
 
 // Made by the build from the files NAME.in of candidates/reproducers, and npm's package.json.
 extern const std::string_view cpp_template, javascript_template, python_template;
-extern const std::string_view bullet_template, ode_template, fcl_template, libccd_template,
-    mujoco_template;
+extern const std::string_view bullet_template, ode_template, fcl_template, coal_template,
+    libccd_template, mujoco_template;
 extern const std::string_view jolt_mjs_template, jolt_doctest_template, rapier_mjs_template,
     physx_mjs_template, havok_mjs_template, mujoco3_mjs_template, mujoco3_py_template;
 extern const std::string_view package_json;
@@ -37,6 +37,7 @@ std::span<const Program> programs() {
       Program{"fcl", "fcl", "FCL", cpp, fcl_template, "collide"},
       Program{"fcl-indep", "fcl-indep", "FCL", cpp, fcl_template, "indep"},
       Program{"fcl-distance", "fcl-distance", "FCL", cpp, fcl_template, "distance", false},
+      Program{"coal", "coal", "Coal", cpp, coal_template, ""},
       Program{"libccd", "libccd-gjk", "libccd", cpp, libccd_template, "gjk", false},
       Program{"libccd-mpr", "libccd-mpr", "libccd", cpp, libccd_template, "mpr", false},
       Program{"mujoco", "mujoco", "MuJoCo", cpp, mujoco_template, ""},
