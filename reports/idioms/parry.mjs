@@ -1,5 +1,6 @@
 // Answers one query::contact, given in JSON (parry3d.rs): by parry, as Rapier's package of npm has it,
-// or, with RIGHT in the environment, by our own routine. Prints the numbers of the contact, or nothing.
+// or, with RIGHT in the environment, by our own routine with the fault that RIGHT names. Prints the
+// numbers of the contact, or nothing.
 import { execFileSync } from 'node:child_process';
 const [one, two, prediction] = JSON.parse(process.argv[2]);
 const vector = ([x, y, z]) => ({ x, y, z }), numbers = ({ x, y, z }) => [x, y, z];
@@ -15,11 +16,14 @@ if (process.env.RIGHT) {
     pose_b: { position: b[1], ...(round ? { axis: axis(b[2]) } : { orientation: [w, x, y, z] }) } };
   const { reference } = JSON.parse(execFileSync(process.env.TOUCHSTONE, ['solve', '--candidates', 'reference'],
     { input: JSON.stringify(line) })).answers;
-  if (reference.status !== 'none') {
+  const fault = process.env.RIGHT;
+  if (reference.status !== 'none' && fault !== 'missed') {
     const deepest = reference.points.reduce((p, q) => (q.depth > p.depth ? q : p)).position;
+    if (fault === 'moved') deepest[0] += 9;
     const normal = reference.normal, opposite = normal.map((u) => -u);
-    const normals = a === one ? [opposite, normal] : [normal, opposite];
-    console.log(reference.signed_distance, ...deepest, ...deepest, ...normals.flat());
+    const normals = (a === one) !== (fault === 'reversed') ? [opposite, normal] : [normal, opposite];
+    const distance = reference.signed_distance - (fault === 'deeper' ? 1e-3 : 0);
+    console.log(distance, ...deepest, ...deepest, ...normals.flat());
   }
 } else {
   const { default: RAPIER } = await import('@dimforge/rapier3d-compat');
