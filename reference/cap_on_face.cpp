@@ -13,6 +13,8 @@ namespace {
 /// While an edge cuts off no more than this part of the radius, the three points of a whole cap are
 /// handed over.
 constexpr double handed_over = 0.01;
+/// From this part of the way on the ends to which the body leans are there.
+constexpr double has_begun = 0.1;
 /// The ends of an edge that takes this part of the patch's width have grown out of one point.
 constexpr double long_edge = 0.15;
 /// From so many radii before all four edges cut on, the points beside the deepest place move there.
@@ -124,13 +126,14 @@ int CapOnFace::spread(const Vec2& towards, const Vec2& deepest, double clearness
     return count;
   }
 
+  const double begun = soon * ramp(progress, 0, has_begun);
   int first[4], last[4];  // point of each side
   for (int i = 0; i < 4; ++i) {
     const Side& s = sides_[i];
     const double cut = (s.top - s.distance) / radius_;
     const Vec2 old = i == 2 ? (arms[1] + arms[2]) / 2 : arms[i == 3 ? 2 : i];
-    // The ends to which the body leans are there at once.
-    const double faces = clearness > 0 ? soon * ramp(towards.dot(outward_[i]), 0.5, 0.65) : 0;
+    // The ends to which the body leans are there before the others.
+    const double faces = begun > 0 ? begun * ramp(towards.dot(outward_[i]), 0.5, 0.65) : 0;
     const double width = sides_[next(i)].height + sides_[before(i)].height;
     const double length = s.hi - s.lo, part = length / (long_edge * width);
     const double grown = std::max(part < 1 ? part * part : 1, faces);
@@ -168,7 +171,7 @@ int CapOnFace::spread(const Vec2& towards, const Vec2& deepest, double clearness
   }
   if (clearness > 0 && room < 1) {
     Vec2 middle = Vec2::Zero();
-    for (int i = 0; i < 4; ++i) middle += (points[first[i]] + points[last[i]]) / 8;
+    for (int i = 0; i < 4; ++i) middle += progress / 8 * (points[first[i]] + points[last[i]]);
     points[count++] = middle + std::max(0.0, 2 * clearness - 1) * (deepest - middle);
   }
   return count;

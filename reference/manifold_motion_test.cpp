@@ -423,6 +423,27 @@ TEST(ManifoldMotion, HullNeverJumpsAsTheLastEdgeBeginsToCutACapThatLeans) {
   }
 }
 
+// Whichever way it leans: where an edge is first seen to cut it, and where all four are near.
+TEST(ManifoldMotion, HullNeverJumpsAsAnEdgeBeginsToCountForACapThatLeans) {
+  constexpr double step = 1e-9, seen = 2e-6, near = 0.05;
+  const double most = 8 * std::sqrt(step);
+  for (double heading = 0.1; heading < 6.3; heading += 0.2) {
+    for (const double tilt : {0.9e-6, 5e-6, 1e-4}) {
+      const Vec3 lean(tilt * std::cos(heading), tilt * std::sin(heading), 0);
+      const struct {
+        double x;
+        Vec3 sides;
+      } rows[] = {{0.5 + seen, {1.5, 1.5, 1}}, {0.03 - near, {1.03, 1.01, 1}}};
+      for (const auto& row : rows) {
+        const Step taken{
+            Vec3(row.x + lean.y(), -lean.x(), 1.99), Box(row.sides), lean, {step, 0, 0}, {0, 0, 0}};
+        const Contact before = contact(taken.taken(-1), 0), after = contact(taken.taken(1), 0);
+        EXPECT_LE(hull_movement(before, after), most) << heading << " " << tilt;
+      }
+    }
+  }
+}
+
 // Where they cross each other is no more than the step says: a box's edge or a hull's.
 TEST(ManifoldMotion, HullNeverJumpsAsALyingSideGrazesAnEdge) {
   const Box box({0.7, 1, 1});
