@@ -1,5 +1,5 @@
 # cpack --config build/release/CPackConfig.cmake: a Debian package of the program, its plug-ins and
-# the reference library, and one of the Python module where that is built. They depend on what their
+# the reference library, and one of the Python module where that is built (package_components.cmake). They depend on what their
 # files are linked with, as dpkg-shlibdeps says.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME touchstone)
@@ -12,6 +12,7 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 # For those who compile against the library or plug-ins of their own, or check a certificate.
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "g++, libeigen3-dev, python3")
 set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_PROJECT_CONFIG_FILE ${CMAKE_CURRENT_LIST_DIR}/package_components.cmake)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME touchstone)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-touchstone)  # python/ says what it depends on
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)

@@ -64,6 +64,17 @@ done < <(cd "$folder/installed" && find . -type f)
 
 # The Python module, where it is built: it finds the plug-ins of the program beside it.
 [ -e "$1"/python/touchstone/__init__.py ] || exit 0
+cat >"$folder/components.cmake" <<'CODE'
+include(${CONFIG})
+include(${CPACK_PROJECT_CONFIG_FILE})
+message(${CPACK_COMPONENTS_ALL})
+set(CPACK_PYTHON_MODULE nowhere)
+include(${CPACK_PROJECT_CONFIG_FILE})
+message(${CPACK_COMPONENTS_ALL})
+CODE
+components=$(cmake -D CONFIG="$1/CPackConfig.cmake" -P "$folder/components.cmake" 2>&1)
+[ "$(grep -c touchstone_reference <<<"$components") $(grep -c touchstone_python <<<"$components")" = "2 1" ] ||
+  fail "without the module: $components"
 module=("$folder"/made/python3-touchstone_*.deb)
 ! grep -q dist-packages "$folder/files" || fail "the program's package holds the module"
 dpkg-deb -x "${module[0]}" "$folder/root"
