@@ -146,7 +146,9 @@ std::string engine_table(const Report& report, bool is_html) {
       for (const std::string& line : lines) shown.push_back(is_html ? as_html(line) : line);
       cells.push_back(fmt::format("{}", fmt::join(shown, "<br>")));
     }
-    text += is_html ? fmt::format("<tr><td>{}</td></tr>\n", fmt::join(cells, "</td><td>"))
+    const std::string cell = is_heading ? "th" : "td";
+    text += is_html ? fmt::format("<tr><{0}>{1}</{0}></tr>\n", cell,
+                                  fmt::join(cells, "</" + cell + "><" + cell + '>'))
                     : fmt::format("|{}|\n", fmt::join(cells, "|"));
     if (is_heading && !is_html) text += '|' + repeated("---|", cells.size()) + '\n';
     is_heading = false;

@@ -378,6 +378,7 @@ TEST(EngineTable, IsAPageWhereItsFilesNameSaysSo) {
   const std::string page = engine_table(two_on_boxes(), true);
   EXPECT_THAT(page, testing::StartsWith("<!doctype html>"));
   EXPECT_THAT(page, testing::HasSubstr("<code>touchstone report --name a&lt;b</code>"));
+  EXPECT_THAT(page, testing::HasSubstr("<tr><th>engine</th><th>cylinder-plane</th><th>"));
   EXPECT_THAT(page, testing::HasSubstr("<tr><td>one<br>2.0</td><td>-</td><td>70.0<br>4<br>"));
   EXPECT_TRUE(is_html_table("a/b.html"));
   EXPECT_FALSE(is_html_table("a/b.md"));
