@@ -65,9 +65,7 @@ void Sample::forget_better_cases() {
 std::optional<Sample::Examined> Sample::examined(std::size_t candidate, std::uint64_t index) const {
   const auto found = examined_.find({candidate, index});
   if (found == examined_.end()) return std::nullopt;
-  Examined result{blank<Configuration>(), {}, {}};
-  BytesIn{found->second}(result);
-  return result;
+  return from_bytes<Examined>(found->second);
 }
 
 std::vector<UnitRun> runs_of(const std::vector<Unit>& units, std::uint64_t max_size) {

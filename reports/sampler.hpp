@@ -77,11 +77,6 @@ struct Sample {
     Configuration configuration;
     oracle::Truth truth;
     std::vector<std::pair<Answer, Score>> answers;
-
-    template <class Archive>
-    friend void members(Archive& a, Examined& x) {
-      a(x.configuration, x.truth, x.answers);
-    }
   };
   /// Absent unless the sample is exact.
   std::optional<Examined> examined(std::size_t candidate, std::uint64_t index) const;

@@ -5,31 +5,17 @@
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
-#include <iterator>
 #include <set>
 
 #include <nlohmann/json.hpp>
 
+#include "properties/files/disk.hpp"
 #include "properties/files/json_schema_test.hpp"
 #include "reports/compare.hpp"
 #include "reports/report_json.hpp"
 #include "reports/stability/stability_members.hpp"
 
 namespace touchstone {
-
-template <>
-Examination blank<Examination>() {
-  return {"", blank<Configuration>(), {}, {}, ""};
-}
-template <>
-WorstCase blank<WorstCase>() {
-  return {"", "", "", "", {}, blank<Examination>()};
-}
-template <>
-DrakeCase blank<DrakeCase>() {
-  return {"", blank<Configuration>()};
-}
-
 namespace {
 
 using nlohmann::ordered_json;
@@ -221,10 +207,7 @@ class Schemas : public testing::TestWithParam<Written> {};
 std::filesystem::path path_of(const std::string& name) {
   return std::filesystem::path(TOUCHSTONE_DOCS) / (name + ".schema.json");
 }
-std::string contents(const std::string& name) {
-  std::ifstream in(path_of(name));
-  return {std::istreambuf_iterator<char>(in), {}};
-}
+std::string contents(const std::string& name) { return read_file(path_of(name), "file"); }
 
 /// Gives a schema the descriptions that another one has in the same places.
 void describe(ordered_json& schema, const ordered_json& described) {

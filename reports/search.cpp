@@ -23,11 +23,6 @@
 
 namespace touchstone {
 
-template <>
-MetFailure blank<MetFailure>() {
-  return {nullptr, "", blank<Configuration>(), {}};
-}
-
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
@@ -229,14 +224,9 @@ class Climb {
 
 /// What a climb came to, and the law that is broken there.
 struct ClimbResult {
-  Summit summit{blank<Configuration>(), {}};
+  Summit summit = blank<Summit>();
   std::uint64_t evaluations = 0;
   std::optional<MetFailure> failure;
-
-  template <class Archive>
-  friend void members(Archive& a, ClimbResult& r) {
-    a(r.summit, r.evaluations, r.failure);
-  }
 };
 
 std::string climb_from(const Summit& summit) { return "a climb from " + summit.start; }

@@ -50,11 +50,6 @@ struct Summit {
   double value = 0;    ///< infinite where the candidate gave no answer to judge
   double sampled = 0;  ///< the highest among the starts, which were drawn and not changed
 };
-template <class Archive>
-void members(Archive& a, Summit& s) {
-  a(s.configuration, s.start, s.value, s.sampled);
-}
-
 struct GoalResult {
   Pair pair;
   Goal goal;

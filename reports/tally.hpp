@@ -164,14 +164,6 @@ void members(Archive& a, Case& c) {
   a(c.cell, c.index, s.outcome, s.depth_error, s.normal_regret, s.severity);
 }
 template <class Archive>
-void members(Archive& a, SignedTally& t) {
-  a(t.negative, t.positive);
-}
-template <class Archive>
-void members(Archive& a, CoverageTally& t) {
-  a(t.uncovered, t.sum);
-}
-template <class Archive>
 void members(Archive& a, ScoreTally& t) {
   a(t.count, t.outcomes, t.points, t.depth_error, t.errors, t.severity, t.coverage, t.worst);
 }
@@ -223,11 +215,6 @@ class TrendTally {
   struct Bin {
     Magnitudes severity{Resolution::exact};
     std::uint64_t missed = 0;
-
-    template <class Archive>
-    friend void members(Archive& a, Bin& b) {
-      a(b.severity, b.missed);
-    }
   };
   std::map<Key, Bin> bins_;
 };

@@ -109,11 +109,6 @@ struct BodyState {
   Pose pose;
   Vec3 velocity, angular_velocity;  ///< of the centre, world frame; m/s, rad/s
 };
-template <class Archive>
-void members(Archive& a, BodyState& s) {
-  a(s.pose, s.velocity, s.angular_velocity);
-}
-
 /// Joules.
 double kinetic_energy(const BodyState& state, const Inertia& inertia);
 

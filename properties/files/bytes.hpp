@@ -21,19 +21,83 @@
 namespace touchstone {
 
 // Values as bytes, on their way between two processes of the same program: as they lie in memory,
-// without a version. What a type consists of is said once, for both ways, in its own namespace:
+// without a version. An aggregate is taken apart into its members. A type that is none, or of which
+// bytes say less or more, lists what they say once, for both ways, in its own namespace:
 //
 //   template <class Archive>
-//   void members(Archive& a, Verdict& v) { a(v.value, v.limit, v.time); }
+//   friend void members(Archive& a, Magnitudes& m) { a(m.resolution_, m.entries_, m.max_); }
 //
-// A type that is trivially copyable needs none; it must not point to anything. One that has some
-// is written by them all the same, without the bytes between its members, which mean nothing.
+// A type that is trivially copyable and lists none is written whole; it must not point to anything.
+
+template <class T, class Archive>
+concept ListsMembers = requires(Archive& a, T& x) {
+  members(a, x);
+};
 
 /// Is it written as it lies in memory?
 template <class T, class Archive>
-concept IsRaw = std::is_trivially_copyable_v<T> && !requires(Archive & a, T& x) {
-  members(a, x);
+concept IsRaw = std::is_trivially_copyable_v<T> && !ListsMembers<T, Archive>;
+
+template <class T>
+T blank();
+/// A member of any type, where an aggregate is made. (An optional of a type of Eigen would be made
+/// of it directly, which cannot be compiled: a type with such a member lists its members.)
+struct BlankMember {
+  template <class T>
+  operator T() const {
+    return blank<T>();
+  }
 };
+
+template <class T, std::size_t... i>
+constexpr bool is_made_of(std::index_sequence<i...>) {
+  return requires { T{(void(i), BlankMember())...}; };
+}
+/// Number of an aggregate's members, `max` at most.
+template <class T, std::size_t max = 11>
+constexpr std::size_t member_count() {
+  static_assert(max > 0, "neither an aggregate nor a type that lists its members");
+  if constexpr (is_made_of<T>(std::make_index_sequence<max>())) {
+    return max;
+  } else {
+    return member_count<T, max - 1>();
+  }
+}
+
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wconversion"  // an optional is made of a blank value
+/// A value to read another one into.
+template <class T>
+T blank() {
+  if constexpr (std::default_initializable<T>) {
+    return T();
+  } else {
+    return []<std::size_t... i>(std::index_sequence<i...>) {
+      return T{(void(i), BlankMember())...};
+    }
+    (std::make_index_sequence<member_count<T>()>());
+  }
+}
+#pragma GCC diagnostic pop
+
+/// Hands an aggregate's members to an archive, in their order.
+template <class Archive, class T>
+void take_apart(Archive& archive, T& x) {
+  constexpr std::size_t n = member_count<T>();
+  static_assert(n < 11, "an aggregate of more than ten members");
+  // clang-format off
+  if constexpr (n == 1) { auto& [a] = x; archive(a); }
+  if constexpr (n == 2) { auto& [a, b] = x; archive(a, b); }
+  if constexpr (n == 3) { auto& [a, b, c] = x; archive(a, b, c); }
+  if constexpr (n == 4) { auto& [a, b, c, d] = x; archive(a, b, c, d); }
+  if constexpr (n == 5) { auto& [a, b, c, d, e] = x; archive(a, b, c, d, e); }
+  if constexpr (n == 6) { auto& [a, b, c, d, e, f] = x; archive(a, b, c, d, e, f); }
+  if constexpr (n == 7) { auto& [a, b, c, d, e, f, g] = x; archive(a, b, c, d, e, f, g); }
+  if constexpr (n == 8) { auto& [a, b, c, d, e, f, g, h] = x; archive(a, b, c, d, e, f, g, h); }
+  if constexpr (n == 9) { auto& [a, b, c, d, e, f, g, h, i] = x; archive(a, b, c, d, e, f, g, h, i); }
+  if constexpr (n == 10) { auto& [a, b, c, d, e, f, g, h, i, j] = x; archive(a, b, c, d, e, f, g, h, i, j); }
+  // clang-format on
+}
 
 class BytesOut {
  public:
@@ -65,18 +129,18 @@ class BytesOut {
       static_assert(!std::is_pointer_v<T> && !std::is_same_v<T, std::string_view>);
       raw(&x, sizeof x);
     } else {
-      members(*this, const_cast<T&>(x));  // which reads it alone, as `reads` says
+      // What is said to be no constant is only read, as `reads` says.
+      if constexpr (ListsMembers<T, BytesOut>) {
+        members(*this, const_cast<T&>(x));
+      } else {
+        take_apart(*this, x);
+      }
     }
   }
 
   std::string bytes_;
 };
 
-/// A value to read another one into.
-template <class T>
-T blank() {
-  return T();
-}
 template <>
 inline Plane blank<Plane>() {
   return {Vec3(0, 0, 1), 0};
@@ -104,10 +168,6 @@ inline Convex blank<Convex>() {
 template <>
 inline Shape blank<Shape>() {
   return blank<Sphere>();
-}
-template <>
-inline Configuration blank<Configuration>() {
-  return {{1, 1}, Pose(), Sphere(1), Pose()};
 }
 
 /// Reads what a BytesOut was given, in the same order.
@@ -156,8 +216,10 @@ class BytesIn {
   void get(T& x) {
     if constexpr (IsRaw<T, BytesIn>) {
       raw(&x, sizeof x);
-    } else {
+    } else if constexpr (ListsMembers<T, BytesIn>) {
       members(*this, x);
+    } else {
+      take_apart(*this, x);
     }
   }
 
@@ -278,10 +340,6 @@ void members(Archive& a, Convex& x) {
   }
 }
 template <class Archive>
-void members(Archive& a, Configuration& x) {
-  a(x.a, x.pose_a, x.b, x.pose_b);
-}
-template <class Archive>
 void members(Archive& a, Answer& x) {
   a(static_cast<ts_answer&>(x), x.reason, x.model_distance, x.roundings, x.was_asked);
 }
@@ -297,18 +355,6 @@ void members(Archive& a, Enclosure& x) {
     a(text);
     if constexpr (Archive::reads) *end = mpq_class(text, base);
   }
-}
-template <class Archive>
-void members(Archive& a, OptimalNormal& x) {
-  a(x.n, x.to_a, x.to_b);
-}
-template <class Archive>
-void members(Archive& a, NormalFamily& x) {
-  a(x.kind, x.axis, x.ends);
-}
-template <class Archive>
-void members(Archive& a, Truth& x) {
-  a(x.signed_distance, x.ties, x.normals, x.families);
 }
 
 }  // namespace oracle

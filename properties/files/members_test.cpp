@@ -32,11 +32,6 @@ struct Parcel {
   std::map<std::string, std::vector<double>> map;
   std::vector<Shape> shapes;
   Pose pose;
-
-  template <class Archive>
-  friend void members(Archive& a, Parcel& p) {
-    a(p.number, p.unknown, p.text, p.there, p.absent, p.pairs, p.map, p.shapes, p.pose);
-  }
 };
 
 const Parcel& parcel() {
@@ -70,6 +65,16 @@ TEST(Bytes, AreReadBackAsTheyWere) {
     EXPECT_EQ(rounding_of(read.shapes[i]), rounding_of(parcel().shapes[i]));
   }
   EXPECT_EQ(read.pose.rotation(), parcel().pose.rotation());
+}
+
+/// Bytes of a truth once lacked the vertices that touch, for a list had not grown with its type.
+TEST(Bytes, HaveEveryMemberOfAnAggregate) {
+  oracle::OptimalNormal normal{Vec3(0, 0, 1)};
+  normal.support_b = {3, 5};
+  const auto read = from_bytes<std::vector<oracle::OptimalNormal>>(to_bytes(std::vector{normal}));
+  EXPECT_EQ(read.at(0).support_b, normal.support_b);
+  const Configuration c{{1, 2}, Pose(), Sphere(3), Pose()};  // which has no default
+  EXPECT_EQ(std::get<Sphere>(from_bytes<Configuration>(to_bytes(c)).b).radius(), 3);
 }
 
 TEST(Bytes, ThatEndTooEarlyAreRefused) {

@@ -20,10 +20,12 @@ namespace touchstone {
 // Archives are JSON both ways (json_members.hpp), its schema (json_schema_test.hpp) and bytes
 // (bytes.hpp), which have no names. `Archive::reads` tells which way the values go.
 
-/// An archive of bytes. What goes between processes may be more than what files say, and then has a
-/// list of its own.
+/// An archive of files, for a list that leaves out what only goes between processes, where bytes
+/// take the type apart instead.
 template <class Archive>
-concept OfBytes = Archive::is_bytes;
+concept OfFiles = !requires {
+  Archive::is_bytes;
+};
 
 /// What the value of a member must be beyond what its type says.
 struct Rule {

@@ -57,11 +57,6 @@ struct Suspect {
   Violation violation;
   std::string features;
 };
-template <class Archive>
-void members(Archive& a, Suspect& s) {
-  a(s.configuration, s.law, s.violation, s.features);
-}
-
 /// What the configurations of a chunk seem to break, in their order.
 struct ChunkResult {
   /// Configurations that each law applies to and the candidate has a routine for.
@@ -70,11 +65,6 @@ struct ChunkResult {
   std::vector<Suspect> suspects;
   double seconds = 0;  ///< that all of it took
 };
-template <class Archive>
-void members(Archive& a, ChunkResult& r) {
-  a(r.tried, r.unsupported, r.suspects, r.seconds);
-}
-
 ChunkResult tried(const Chunk& chunk, const CheckOptions& options, CandidateProcess& candidate) {
   const auto start = std::chrono::steady_clock::now();
   ChunkResult result;

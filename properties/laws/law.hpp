@@ -17,11 +17,6 @@ struct Violation {
   double amount = 0;   ///< size of the violation, relative to the smaller size
   std::string detail;  ///< one sentence with the numbers
 };
-template <class Archive>
-void members(Archive& a, Violation& v) {
-  a(v.failure, v.amount, v.detail);
-}
-
 /// A question with or without a hint.
 struct HintedQuestion {
   Configuration configuration;

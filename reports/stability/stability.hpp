@@ -109,48 +109,6 @@ struct Sequences {
   std::vector<Course> motions;
 };
 
-// What a worker has measured, whole, on its way to the one that asked it; stability_members.hpp
-// says what of it is written.
-template <OfBytes Archive>
-void members(Archive& a, Amplification::Row& x) {
-  a(x.pair, x.pose_class, x.candidate, x.amplification, x.hull_excess, x.regret, x.jump,
-    x.points_changed, x.missed, x.unanswered);
-}
-template <OfBytes Archive>
-void members(Archive& a, Amplification::TruthRow& x) {
-  a(x.pair, x.pose_class, x.amplification);
-}
-template <OfBytes Archive>
-void members(Archive& a, Amplification::WorstStep& x) {
-  a(x.pair, x.pose_class, x.candidate, x.measure, x.value, x.from, x.to);
-}
-template <OfBytes Archive>
-void members(Archive& a, Amplification& x) {
-  a(x.seed, x.count, x.results, x.truth, x.worst);
-}
-template <OfBytes Archive>
-void members(Archive& a, FailureMaps::Picture& x) {
-  a(x.candidate, x.letters);
-}
-template <OfBytes Archive>
-void members(Archive& a, FailureMaps::Pose& x) {
-  a(x.name, x.description, x.pair, x.columns, x.rows, x.pictures);
-}
-template <OfBytes Archive>
-void members(Archive& a, Sequences::Peak& x) {
-  a(x.value, x.step);
-}
-template <OfBytes Archive>
-void members(Archive& a, Sequences::Row& x) {
-  a(x.candidate, x.amplification, x.jump, x.hull, x.hull_excess, x.points_changed, x.missed,
-    x.wrong, x.unanswered);
-}
-template <OfBytes Archive>
-void members(Archive& a, Sequences::Course& x) {
-  a(x.motion, x.description, x.pair, x.displacement, x.true_depth_change, x.true_patch_movement,
-    x.results);
-}
-
 struct Stability {
   std::vector<std::string> candidates;  ///< names
   double tolerance, threshold;

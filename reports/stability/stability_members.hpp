@@ -36,7 +36,7 @@ inline auto shortened(const ByAmplitude<std::optional<double>>& values) {
   return result;
 }
 
-void members(auto& a, Amplification::Row& r) {
+void members(OfFiles auto& a, Amplification::Row& r) {
   a.named("pair", r.pair, rule::pair);
   a.named("class", r.pose_class);
   a.named("candidate", r.candidate);
@@ -48,12 +48,12 @@ void members(auto& a, Amplification::Row& r) {
   a.named("missed", r.missed, rule::not_negative);
   a.named("unanswered", r.unanswered, rule::not_negative);
 }
-void members(auto& a, Amplification::TruthRow& r) {
+void members(OfFiles auto& a, Amplification::TruthRow& r) {
   a.named("pair", r.pair, rule::pair);
   a.named("class", r.pose_class);
   a.named("amplification", rounded_up(r.amplification), rule::not_negative);
 }
-void members(auto& a, Amplification::WorstStep& w) {
+void members(OfFiles auto& a, Amplification::WorstStep& w) {
   a.named("pair", w.pair, rule::pair);
   a.named("class", w.pose_class);
   a.named("candidate", w.candidate);
@@ -65,7 +65,7 @@ void members(auto& a, Amplification::WorstStep& w) {
   a.named("from", w.from);
   a.named("to", w.to);
 }
-void members(auto& a, Amplification& x) {
+void members(OfFiles auto& a, Amplification& x) {
   ByAmplitude<double> amplitudes;
   for (std::size_t i = 0; i < amplitudes.size(); ++i) amplitudes[i] = amplitude(i).value();
   a.named("amplitudes", amplitudes, rule::positive);
@@ -79,13 +79,13 @@ void members(auto& a, Amplification& x) {
 /// "289." for 289 dots, "3m2." for mmm..
 std::string run_lengths(const std::string& letters);
 
-void members(auto& a, FailureMaps::Picture& p) {
+void members(OfFiles auto& a, FailureMaps::Picture& p) {
   a.named("candidate", p.candidate);
   std::vector<std::string> maps;
   for (const std::string& letters : p.letters) maps.push_back(run_lengths(letters));
   a.named("maps", maps);
 }
-void members(auto& a, FailureMaps::Pose& p) {
+void members(OfFiles auto& a, FailureMaps::Pose& p) {
   a.named("pose", p.name);
   a.named("description", p.description);
   a.named("pair", p.pair, rule::pair);
@@ -93,7 +93,7 @@ void members(auto& a, FailureMaps::Pose& p) {
   a.named("rows", p.rows);
   a.named("results", p.pictures);
 }
-void members(auto& a, FailureMaps& m) {
+void members(OfFiles auto& a, FailureMaps& m) {
   a.named("reach", map_reach, rule::not_negative);
   a.named("stride", m.stride, rule::from_one);
   std::vector<std::string> zooms;
@@ -110,11 +110,11 @@ void members(auto& a, FailureMaps& m) {
   a.named("poses", m.poses);
 }
 
-void members(auto& a, Sequences::Peak& p) {
+void members(OfFiles auto& a, Sequences::Peak& p) {
   a.named("value", ShortNumber{p.value});
   a.named("step", p.step, rule::not_negative);
 }
-void members(auto& a, Sequences::Row& r) {
+void members(OfFiles auto& a, Sequences::Row& r) {
   a.named("candidate", r.candidate);
   a.named("amplification", rounded_up(r.amplification), rule::not_negative);
   a.named("jump", r.jump);
@@ -128,11 +128,11 @@ void members(auto& a, Sequences::Row& r) {
 struct LargestTrueChanges {
   ShortNumber depth, patch;
 };
-void members(auto& a, LargestTrueChanges& t) {
+void members(OfFiles auto& a, LargestTrueChanges& t) {
   a.named("depth", t.depth);
   a.named("patch", t.patch);
 }
-void members(auto& a, Sequences::Course& c) {
+void members(OfFiles auto& a, Sequences::Course& c) {
   a.named("motion", c.motion);
   a.named("description", c.description);
   a.named("pair", c.pair, rule::pair);
@@ -140,12 +140,12 @@ void members(auto& a, Sequences::Course& c) {
   a.named("truth", LargestTrueChanges{{c.true_depth_change}, {c.true_patch_movement}});
   a.named("results", c.results);
 }
-void members(auto& a, Sequences& s) {
+void members(OfFiles auto& a, Sequences& s) {
   a.named("steps", s.steps, rule::not_negative);
   a.named("motions", s.motions);
 }
 
-void members(auto& a, Stability& s) {
+void members(OfFiles auto& a, Stability& s) {
   a.named("candidates", s.candidates);
   a.named("tolerance", s.tolerance, rule::positive);
   a.named("threshold", s.threshold, rule::not_negative);

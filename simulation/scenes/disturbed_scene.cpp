@@ -219,11 +219,6 @@ Straying straying(const Scene& scene, const Trajectory& run, const Trajectory& e
   return result;
 }
 
-template <>
-Evidence blank<Evidence>() {
-  return {blank<Configuration>(), {}, {}, {}, 0};
-}
-
 Trajectory ends_of(const Trajectory& run) {
   return {run.step, {run.frames.front(), run.frames.back()}, {}};
 }

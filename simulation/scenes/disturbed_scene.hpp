@@ -61,11 +61,6 @@ struct Evidence {
   std::string wrong;  ///< in words: "missed, 0.0012 m deep"
   double time;        ///< s
 };
-template <class Archive>
-void members(Archive& a, Evidence& e) {
-  a(e.configuration, e.bodies, e.candidate, e.wrong, e.time);
-}
-
 /// How a run differs from the one with exact contacts, asked for or not: a body that falls through
 /// the floor upright still stands.
 struct Straying {
@@ -80,11 +75,6 @@ struct Straying {
 };
 /// Of a run of the scene as it is written or turned back to it, from the exact one.
 Straying straying(const Scene& scene, const Trajectory& run, const Trajectory& exact);
-template <class Archive>
-void members(Archive& a, Straying& s) {
-  a(s.overlap, s.distance, s.body, s.tilt, s.tilted_body);
-}
-
 /// What one run came to.
 struct Trial {
   std::vector<Verdict> verdicts;  ///< by need
@@ -94,13 +84,6 @@ struct Trial {
   double solver_seconds = 0;
   Straying straying = {};
 };
-template <class Archive>
-void members(Archive& a, Trial& t) {
-  a(t.verdicts, t.evidence, t.end, t.points, t.solver_seconds, t.straying);
-}
-template <>
-Evidence blank<Evidence>();
-
 /// The start and the end of a run alone.
 Trajectory ends_of(const Trajectory& run);
 

@@ -18,11 +18,6 @@ struct ExactMotion {
 
   bool has_contacts() const;
 };
-template <class Archive>
-void members(Archive& a, ExactMotion& m) {
-  a(m.depths, m.ways);
-}
-
 /// Of one run.
 ExactMotion motion_of(const Scene& scene, const Trajectory& run);
 

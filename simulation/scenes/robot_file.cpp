@@ -9,9 +9,9 @@
 #include "candidates/candidates.hpp"
 #include "candidates/host/contained.hpp"
 #include "candidates/host/guard.hpp"
+#include "properties/files/bytes.hpp"
 #include "reference/invalid_input.hpp"
 #include "simulation/scenes/library_log.hpp"
-#include "simulation/scenes/robot_bytes.hpp"
 #include "simulation/scenes/robot_readers.hpp"
 
 namespace touchstone {

@@ -40,6 +40,10 @@ struct LinkInertia {
   Pose pose;                         ///< of its centre and principal axes, as that of its shapes
   std::optional<Vec3> moments = {};  ///< principal, kg m²; without them, as its shapes have it
 };
+template <class Archive>
+void members(Archive& a, LinkInertia& x) {
+  a(x.pose, x.moments);
+}
 
 /// A rigid part of a robot or world.
 struct Link {

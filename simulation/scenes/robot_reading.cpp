@@ -13,11 +13,11 @@
 
 #include "candidates/host/guard.hpp"
 #include "candidates/readable.hpp"
+#include "properties/files/bytes.hpp"
 #include "properties/files/given_text.hpp"
 #include "properties/files/strict_json.hpp"
 #include "reference/invalid_input.hpp"
 #include "simulation/scenes/library_log.hpp"
-#include "simulation/scenes/robot_bytes.hpp"
 #include "simulation/scenes/robot_readers.hpp"
 
 namespace touchstone {

@@ -33,7 +33,6 @@ template <class Archive>
 void members(Archive& a, JudgedAnswer& j) {
   a(j.frame, j.a, j.b, j.depth, j.status, j.signed_distance, j.wrong_normal, j.points);
 }
-
 /// The motion of a scene, and what its contact model answered.
 struct Trajectory {
   double step = 0;                             ///< s
@@ -47,11 +46,6 @@ struct Trajectory {
   double end() const { return step * static_cast<double>(frames.size() - 1); }
   Configuration configuration(const Scene& scene, const JudgedAnswer& answer) const;
 };
-template <class Archive>
-void members(Archive& a, Trajectory& t) {
-  a(t.step, t.frames, t.answers, t.sound, t.points, t.step_seconds);
-}
-
 /// Runs the scene to its duration. The true depths and normals are those of our own routines (held
 /// to 1e-13).
 Trajectory run_scene(const Scene& scene, ContactModel& model);

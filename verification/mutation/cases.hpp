@@ -18,17 +18,6 @@ struct KnownPatch {
   double leans;                   ///< 1 or 0
   std::vector<Numbers3> outline;  ///< corners in order, arcs as chords
 };
-template <class Archive>
-void members(Archive& a, KnownPatch& p) {
-  a(p.normal, p.leans, p.outline);
-}
-
-template <class Archive>
-void members(Archive& a, RawConfiguration& r) {
-  a(r.pair, r.sizes, r.vertices, r.faces, r.position_a, r.position_b, r.orientation_a,
-    r.orientation_b, r.normal, r.displacement);
-}
-
 /// A configuration, and what the oracle knows of it.
 struct Case {
   std::string identity;
@@ -37,11 +26,6 @@ struct Case {
   std::vector<Numbers3> normals;  ///< optimal ones
   std::vector<KnownPatch> patches;
 };
-template <class Archive>
-void members(Archive& a, Case& c) {
-  a(c.identity, c.raw, c.signed_distance, c.normals, c.patches);
-}
-
 constexpr double leaning_threshold = 0.01;
 
 /// Caches configurations with their truths, which take far longer than answers and are the same for
