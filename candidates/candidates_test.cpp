@@ -5,7 +5,6 @@
 #include <cstdlib>
 #include <dlfcn.h>
 #include <filesystem>
-#include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <random>
@@ -14,6 +13,7 @@
 #include "candidates/testing/plain_contacts.hpp"
 #include "oracle/hull.hpp"
 #include "oracle/truth.hpp"
+#include "properties/files/own_folder_test.hpp"
 #include "properties/pose_class.hpp"
 #include "reference/invalid_input.hpp"
 
@@ -99,33 +99,31 @@ TEST(FindCandidate, ListsANameOnceThatACommandHasTaken) {
 class PlayedNode {
  public:
   PlayedNode() {
-    std::filesystem::create_directories(folder_);
-    std::ofstream(folder_ / "node") << R"(#!/bin/sh
+    const auto node = folder_.with("node", R"(#!/bin/sh
 if [ "$1" = physx.mjs ]; then echo "unsupported: it has no cylinder" >&2; exit 2; fi
 read -r line
 echo '{"touchstone":1,"name":"jolt-margin@'$TOUCHSTONE_RELEASE'","version":"0.30.0","settings":"",
 "precision":"float","runs":"wasm","format":"lines",
 "pairs":["cylinder-box"],"parameter":{"meaning":"margin","min":0,"max":1,"usual":0.5}}' | tr -d '\n'
 echo; cat
-)";
-    std::filesystem::permissions(folder_ / "node", std::filesystem::perms::owner_all);
-    for (const char* package : {"jolt-physics@0.30", "jolt-physics@0.31", "physx-js-webidl@1"}) {
-      const auto name = std::string(package).substr(0, std::string(package).find('@'));
-      const auto folder = folder_ / "versions" / package / "node_modules" / name;
-      std::filesystem::create_directories(folder);
-      std::ofstream(folder / "package.json") << "{}";
+)");
+    std::filesystem::permissions(node, std::filesystem::perms::owner_all);
+    for (const std::string package :
+         {"jolt-physics@0.30", "jolt-physics@0.31", "physx-js-webidl@1"}) {
+      folder_.with("versions/" + package + "/node_modules/" + package.substr(0, package.find('@')) +
+                       "/package.json",
+                   "{}");
     }
-    setenv("PATH", (folder_.string() + ':' + path_).c_str(), 1);
-    setenv("TOUCHSTONE_NPM", folder_.c_str(), 1);
+    setenv("PATH", (folder_.path.string() + ':' + path_).c_str(), 1);
+    setenv("TOUCHSTONE_NPM", folder_.path.c_str(), 1);
   }
   ~PlayedNode() {
     setenv("PATH", path_.c_str(), 1);
     unsetenv("TOUCHSTONE_NPM");
-    std::filesystem::remove_all(folder_);
   }
 
  private:
-  const std::filesystem::path folder_ = testing::TempDir() + "played-node";
+  const OwnFolder folder_;
   const std::string path_ = std::getenv("PATH");
 };
 

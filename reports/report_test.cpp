@@ -11,6 +11,7 @@
 #include "oracle/as_hull.hpp"
 #include "oracle/truth.hpp"
 #include "properties/files/disk.hpp"
+#include "properties/files/own_folder_test.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/covered_pairs.hpp"
 #include "reports/make_report.hpp"
@@ -268,13 +269,13 @@ TEST(Report, EveryWorstCaseReplaysToTheSameAnswers) {
 }
 
 TEST(Report, IsWrittenAsAWhole) {
-  const std::filesystem::path folder = testing::TempDir() + "touchstone report test";
+  const OwnFolder own;
+  const std::filesystem::path folder = own.path / "report test";
   write_report(report_of_some(), folder);
   std::ifstream file(folder / "report.json");
   EXPECT_EQ(json::parse(file)["schema"], report_schema);
   EXPECT_TRUE(std::filesystem::exists(folder / "report.html"));
   EXPECT_FALSE(std::filesystem::exists(folder / "report.json.partial"));
-  std::filesystem::remove_all(folder);
 }
 
 TEST(Report, ScoresMoreOfWhatUsersAskOfFirst) {
@@ -300,10 +301,8 @@ TEST(Report, RefusesAnUnknownClassBeforeAnyWork) {
 }
 
 TEST(Report, RefusesAFolderThatIsAFile) {
-  const std::filesystem::path file = testing::TempDir() + "touchstone_is_a_file";
-  std::ofstream(file) << "x";
-  EXPECT_THROW(check_writable(file), InvalidInput);
-  std::filesystem::remove(file);
+  const OwnFolder own;
+  EXPECT_THROW(check_writable(own.with("file", "x")), InvalidInput);
 }
 
 /// Poses some 26 m from the origin, rounded to doubles.

@@ -3,10 +3,6 @@
 //
 // TOUCHSTONE_COUNT sets how many configurations of each class are certified; by default, for CI,
 // one of every fourth class.
-#include <cstdio>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sstream>
@@ -21,6 +17,7 @@
 #include "oracle/truth.hpp"
 #include "properties/casts.hpp"
 #include "properties/files/configuration_json.hpp"
+#include "properties/files/own_folder_test.hpp"
 #include "properties/identity.hpp"
 #include "properties/numbers.hpp"
 #include "reference/random_bodies_test.hpp"
@@ -31,7 +28,6 @@ namespace {
 
 using nlohmann::json;
 using testing::HasSubstr;
-namespace fs = std::filesystem;
 
 // 3-4-5 from the rim point (1, 0, 1) to the sphere's centre, less its radius: apart by 3.
 const Configuration apart{Cylinder(1, 1), Pose(), Sphere(2),
@@ -114,26 +110,18 @@ std::vector<Identity> identities(Pair pair) {
 /// Writes certificates of a pair into a folder, all of which the checker accepts in the end.
 class Certificates : public testing::TestWithParam<Pair> {
  protected:
-  void SetUp() override {
-    folder_ = (fs::temp_directory_path() / "certificates-XXXXXX").string();
-    ASSERT_NE(mkdtemp(folder_.data()), nullptr);
-  }
   void TearDown() override {
-    const std::string command =
-        TOUCHSTONE_PYTHON " " TOUCHSTONE_CHECKER " " + folder_ + "/*.json 2>&1";
-    FILE* pipe = popen(command.c_str(), "r");
-    std::size_t lines = 0;
-    char buffer[1024];
-    for (; fgets(buffer, sizeof buffer, pipe) != nullptr; ++lines) {
-      EXPECT_THAT(buffer, HasSubstr(".json: accepted: "));
+    std::istringstream lines(printed_by(TOUCHSTONE_PYTHON " " TOUCHSTONE_CHECKER " " +
+                                        folder_.path.string() + "/*.json 2>&1"));
+    std::size_t count = 0;
+    for (std::string line; std::getline(lines, line); ++count) {
+      EXPECT_THAT(line, HasSubstr(".json: accepted: "));
     }
-    EXPECT_EQ(lines, count_);
-    EXPECT_EQ(WEXITSTATUS(pclose(pipe)), 0);
-    fs::remove_all(folder_);
+    EXPECT_EQ(count, count_);
   }
 
   void write(const std::string& certificate) {
-    std::ofstream(folder_ + '/' + std::to_string(count_++) + ".json") << certificate;
+    folder_.with(std::to_string(count_++) + ".json", certificate);
   }
   audit::Certificate certify(const Configuration& c, const audit::Budget& spent = budget) {
     audit::Certificate proof = audit::certify(c, spent);
@@ -151,7 +139,7 @@ class Certificates : public testing::TestWithParam<Pair> {
   std::size_t count() const { return count_; }
 
  private:
-  std::string folder_;
+  const OwnFolder folder_;
   std::size_t count_ = 0;
 };
 /// Of bodies whose sizes are set to such lengths.

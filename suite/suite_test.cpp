@@ -2,7 +2,6 @@
 // write, cover what they say, and that their three readers judge answers as the scores of our
 // reports do.
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <gmock/gmock.h>
@@ -11,13 +10,13 @@
 #include <numbers>
 #include <set>
 #include <sstream>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <nlohmann/json.hpp>
 
 #include "candidates/candidates.hpp"
 #include "properties/files/answer_json.hpp"
+#include "properties/files/disk.hpp"
+#include "properties/files/own_folder_test.hpp"
 #include "properties/numbers.hpp"
 #include "reports/test_data/given_answers.hpp"
 #include "reports/test_data/test_data.hpp"
@@ -27,21 +26,10 @@ namespace touchstone {
 namespace {
 
 using nlohmann::json;
-namespace fs = std::filesystem;
 
-const std::string suite_file = TOUCHSTONE_SUITE "/touchstone-suite-1.csv.gz";
-
-/// What a command prints. Its exit code must be one of 0 and 1.
-std::string printed_by(const std::string& command) {
-  FILE* const pipe = popen(command.c_str(), "r");
-  std::string text, block(1 << 16, '\0');
-  for (std::size_t n; (n = std::fread(block.data(), 1, block.size(), pipe)) > 0;) {
-    text.append(block, 0, n);
-  }
-  const int status = pclose(pipe);
-  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) <= 1) << command;
-  return text;
-}
+const std::string suite_file = TOUCHSTONE_SUITE "/touchstone-suite-1.csv.gz",
+                  judge_py = TOUCHSTONE_PYTHON " " TOUCHSTONE_SUITE "/judge.py ",
+                  judge_js = "node " TOUCHSTONE_SUITE "/judge.js ";
 
 std::string unpacked(const std::string& file) { return printed_by("gzip -dc " + file); }
 
@@ -79,19 +67,17 @@ TEST(Suite1, IsWhatExportWritesToTheByte) {
 }
 
 TEST(Suites, HaveTheChecksumsThatAreWrittenDown) {
-  std::ifstream file(TOUCHSTONE_SUITE "/SHA256SUMS");
-  const std::string sums{std::istreambuf_iterator<char>(file), {}};
+  const std::string sums = read_file(TOUCHSTONE_SUITE "/SHA256SUMS", "file");
   EXPECT_EQ(sums, printed_by("cd " TOUCHSTONE_SUITE " && for f in touchstone-suite-1 "
                              "touchstone-suite-2-smoke touchstone-suite-2-everyday "
                              "touchstone-suite-2-hard; do sha256sum $f.csv.gz; "
                              "gzip -dc $f.csv.gz | sha256sum | sed \"s/-$/$f.csv/\"; done"));
-  std::ifstream readme(TOUCHSTONE_SUITE "/README.md");
-  const std::string page{std::istreambuf_iterator<char>(readme), {}};
-  EXPECT_THAT(page, testing::HasSubstr(sums.substr(0, 64)));
+  EXPECT_THAT(read_file(TOUCHSTONE_SUITE "/README.md", "file"),
+              testing::HasSubstr(sums.substr(0, 64)));
 }
 
 TEST(Suite1, IsSmallEnoughForARepository) {
-  EXPECT_LT(fs::file_size(suite_file), 1500000u);
+  EXPECT_LT(std::filesystem::file_size(suite_file), 1500000u);
   EXPECT_NEAR(static_cast<double>(data().size()), 5000, 500);
 }
 
@@ -158,14 +144,13 @@ void expect_gaps_of_all_readers(const std::vector<TestDatum>& given, const std::
     }
   }
   expect_gaps(given, cases, by_cpp);
-  const std::string folder =
-      (fs::temp_directory_path() / ("suite_gaps." + std::to_string(getpid()))).string();
-  fs::create_directory(folder);
-  std::ofstream(folder + "/suite.csv") << csv;
-  std::ofstream(folder + "/normals.json") << normals;
+  const OwnFolder folder;
+  folder.with("suite.csv", csv);
+  folder.with("normals.json", normals.dump());
   const std::string count = std::to_string(std::size(angles));
   const auto said_by = [&](const std::string& command) {
-    return json::parse(printed_by("cd " TOUCHSTONE_SUITE " && FOLDER=" + folder + ' ' + command))
+    return json::parse(printed_by("cd " TOUCHSTONE_SUITE " && FOLDER=" + folder.path.string() +
+                                  ' ' + command))
         .get<std::vector<double>>();
   };
   expect_gaps(given, cases, said_by(TOUCHSTONE_PYTHON R"( -Bc '
@@ -181,7 +166,6 @@ const normals = JSON.parse(require("fs").readFileSync(folder + "/normals.json"))
 const cases = read(folder + "/suite.csv");
 console.log(JSON.stringify(normals.map((n, i) => gap(cases[Math.floor(i / )" +
                       count + R"()], n))));')"));
-  fs::remove_all(folder);
 }
 
 TEST(Suite1, ReadersKnowTheRegretOfAnyNormal) { expect_gaps_of_all_readers(data(), committed()); }
@@ -412,7 +396,7 @@ struct Answers {
   std::vector<const PlantedFault*> planted;  ///< null: none that is in the list
   std::vector<std::string> verdicts;         ///< by the suite's rule
   std::vector<std::string> outcomes;         ///< by score()
-  std::string file;
+  std::string lines;                         ///< of a file of them
 };
 
 const Answers& answers() {
@@ -422,9 +406,8 @@ const Answers& answers() {
     const auto own = CandidateProcess(find_candidate("reference"), suite_1().bar.threshold)
                          .answers(configurations);
     Answers made;
-    made.file = (fs::temp_directory_path() / ("suite_test." + std::to_string(getpid()))).string();
-    std::ofstream out(made.file);
-    out << R"({"candidate": "planted", "version": "1", "settings": "by suite_test.cpp"})" << '\n';
+    made.lines = R"({"candidate": "planted", "version": "1", "settings": "by suite_test.cpp"})"
+                 "\n";
     for (std::size_t i = 0, turn = 0; i < data().size(); ++i) {
       const TestDatum& d = data()[i];
       ts_answer a = own[i];
@@ -438,15 +421,12 @@ const Answers& answers() {
       made.verdicts.push_back(verdict_of(d, a));
       made.outcomes.emplace_back(
           outcome_name(score(d.configuration, d.truth, a, suite_1().bar).outcome));
-      out << line_of(to_string(d.identity), a).dump() << '\n';
+      made.lines += line_of(to_string(d.identity), a).dump() + '\n';
       made.all.push_back(a);
       made.planted.push_back(fault);
     }
     return made;
   }();
-  static const struct Removal {
-    ~Removal() { fs::remove(result.file); }
-  } at_the_end;
   return result;
 }
 
@@ -470,10 +450,10 @@ TEST(Verdicts, OfTheScoreNameThePlantedFault) {
 }
 
 TEST(Verdicts, OfTheThreeReadersAreThoseOfTheScore) {
-  const std::string files = suite_file + ' ' + answers().file;
-  const auto by_python =
-      verdicts_in(printed_by(TOUCHSTONE_PYTHON " " TOUCHSTONE_SUITE "/judge.py " + files));
-  const auto by_node = verdicts_in(printed_by("node " TOUCHSTONE_SUITE "/judge.js " + files));
+  const OwnFolder folder;
+  const std::string files = suite_file + ' ' + folder.with("answers", answers().lines).string();
+  const auto by_python = verdicts_in(printed_by(judge_py + files, 1));
+  const auto by_node = verdicts_in(printed_by(judge_js + files, 1));
   ASSERT_EQ(by_python.size(), data().size());
   ASSERT_EQ(by_node.size(), data().size());
   for (std::size_t i = 0; i < data().size(); ++i) {
@@ -486,7 +466,7 @@ TEST(Verdicts, OfTheThreeReadersAreThoseOfTheScore) {
 }
 
 TEST(Verdicts, OfTouchstoneScoreAreThoseOfTheScore) {
-  std::ifstream in(answers().file);
+  std::istringstream in(answers().lines);
   const ReadAnswers read = read_answers(in, {}, {nullptr, identities(suite_1())});
   EXPECT_TRUE(read.errors.empty());
   const Report report = report_of(read.answers, read.seed, Bar(), 2, "x");
@@ -528,9 +508,8 @@ TEST(Readers, AllowRoutinesInFloatWhatFloatsCost) {
           << '\n';
   }
   ASSERT_GT(given.size(), 10u);
-  const std::string answers_file =
-      (fs::temp_directory_path() / ("suite_float." + std::to_string(getpid()))).string();
-  std::ofstream(answers_file) << lines.str();
+  const OwnFolder folder;
+  const std::string answers_file = folder.with("answers", lines.str()).string();
   for (const bool single : {false, true}) {
     const std::string right = single ? "agree" : "overdeep";
     for (std::size_t i = 0; i < given.size(); ++i) {
@@ -539,31 +518,18 @@ TEST(Readers, AllowRoutinesInFloatWhatFloatsCost) {
     }
     const std::string files = (single ? "--float " : "") + suite_2_file(file) + ' ' + answers_file;
     const std::vector<std::string> expected(given.size(), right);
-    EXPECT_EQ(verdicts_in(printed_by(TOUCHSTONE_PYTHON " " TOUCHSTONE_SUITE "/judge.py " + files)),
-              expected);
-    EXPECT_EQ(verdicts_in(printed_by("node " TOUCHSTONE_SUITE "/judge.js " + files)), expected);
+    for (const std::string& judge : {judge_py, judge_js}) {
+      EXPECT_EQ(verdicts_in(printed_by(judge + files, 1)), expected) << judge;
+    }
   }
-  fs::remove(answers_file);
 }
 
 // Files that are none: a reader says in one line where and what is wrong.
 
-/// Files of a test in a folder of their own.
-struct Folder {
-  Folder() { fs::create_directory(path); }
-  ~Folder() { fs::remove_all(path); }
-  std::string with(const std::string& name, const std::string& text) const {
-    std::ofstream(path / name, std::ios::binary) << text;
-    return (path / name).string();
-  }
-  const fs::path path = fs::temp_directory_path() / ("suite_files." + std::to_string(getpid()));
-};
-
 /// What both judges say of a suite and answers, which has to be one line, with exit code 2.
 void expect_refusal(const std::string& suite, const std::string& answers,
                     const std::string& expected) {
-  for (const std::string judge : {TOUCHSTONE_PYTHON " " TOUCHSTONE_SUITE "/judge.py ",
-                                  "node " TOUCHSTONE_SUITE "/judge.js "}) {
+  for (const std::string& judge : {judge_py, judge_js}) {
     SCOPED_TRACE(judge + suite + ' ' + answers);
     const std::string said =
         printed_by("{ " + judge + suite + ' ' + answers + " 2>&1; echo \"exit $?\"; }");
@@ -583,7 +549,7 @@ std::string refusal_in_cpp(const std::string& csv) {
 }
 
 TEST(Readers, RefuseASuiteThatIsCutOffDamagedOrNone) {
-  const Folder folder;
+  const OwnFolder folder;
   const std::string answer =
       folder.with("answers", R"({"id": "cylinder-box/recorded/1/13", "status": "none"})");
   std::string damaged = committed();
@@ -613,8 +579,7 @@ TEST(Readers, RefuseASuiteThatIsCutOffDamagedOrNone) {
                  "61: must be \"# 59 configurations\"");
   expect_refusal("--float " + suite_file, answer, "has no float_tolerance");
   expect_refusal((folder.path / "none.csv").string(), answer, "none.csv: cannot be read: ");
-  std::ifstream packed(suite_file, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(packed), {}};
+  const std::string bytes = read_file(suite_file, "file");
   EXPECT_THAT(refusal_in_cpp(bytes), testing::EndsWith("unpack a .gz by gzip -d"));
   expect_refusal(folder.with("packed.csv", bytes), answer, "packed.csv:");
   expect_refusal(folder.with("cut.csv.gz", bytes.substr(0, 50000)), answer,
@@ -624,7 +589,7 @@ TEST(Readers, RefuseASuiteThatIsCutOffDamagedOrNone) {
 }
 
 TEST(Readers, RefuseAnswersThatAreNoneAndNameTheLineAndTheField) {
-  const Folder folder;
+  const OwnFolder folder;
   const std::string small = suite_2_file(suite_2_files().front());  // read for each refusal
   const auto expect_refused = [&](const std::string& text, const std::string& expected) {
     expect_refusal(small, folder.with("answers", text), "answers" + expected);

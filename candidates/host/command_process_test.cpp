@@ -9,6 +9,7 @@
 #include "candidates/host/own_respondent.hpp"
 #include "candidates/host/plugin_process.hpp"
 #include "oracle/hull.hpp"
+#include "properties/files/own_folder_test.hpp"
 #include "properties/identity.hpp"
 #include "reference/invalid_input.hpp"
 
@@ -227,17 +228,14 @@ TEST(CommandProcess, IsRefusedWithTheReason) {
 
 TEST(CommandProcess, IsAddedByCommandAndByList) {
   add_command(command("lines", "hello {\"name\": \"by-command\"}"));
-  const auto file = std::filesystem::temp_directory_path() /
-                    ("touchstone-list-" + std::to_string(getpid()) + ".txt");
-  std::ofstream(file) << "# engines\n\n"
-                      << command("frames", "hello {\"name\": \"by-list\"}") << "\n";
-  add_file(file);
+  const OwnFolder folder;
+  add_file(folder.with(
+      "list.txt", "# engines\n\n" + command("frames", "hello {\"name\": \"by-list\"}") + "\n"));
   EXPECT_EQ(find_candidate("by-command:3").value, 3);
   EXPECT_EQ(find_candidate("by-list").runs, "script");
-  EXPECT_EQ(find_candidate("by-list").command()->folder, file.parent_path());
-  std::ofstream(file) << "# engines\ntrue\n";
-  EXPECT_THAT([&] { add_file(file); }, ThrowsMessage<InvalidInput>(HasSubstr("line 2: \"true\"")));
-  std::filesystem::remove(file);
+  EXPECT_EQ(find_candidate("by-list").command()->folder, folder.path);
+  EXPECT_THAT([&] { add_file(folder.with("list.txt", "# engines\ntrue\n")); },
+              ThrowsMessage<InvalidInput>(HasSubstr("line 2: \"true\"")));
 }
 
 bool are_same(const ts_point& x, const ts_point& y) {

@@ -5,13 +5,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <iterator>
-#include <streambuf>
 #include <string>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <nlohmann/json.hpp>
 
+#include "properties/files/own_folder_test.hpp"
 #include "reference/error_of_test.hpp"
 #include "reference/invalid_input.hpp"
 
@@ -23,23 +23,16 @@ using testing::HasSubstr;
 using testing::ThrowsMessage;
 
 struct WriteFile : testing::Test {
-  WriteFile() { std::filesystem::create_directories(folder); }
-  ~WriteFile() override { std::filesystem::remove_all(folder); }
-
-  static std::string read(const std::filesystem::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-  }
   long count() const { return std::distance(std::filesystem::directory_iterator(folder), {}); }
 
-  const std::filesystem::path folder =
-      std::filesystem::path(testing::TempDir()) / ("write_file_test." + std::to_string(getpid()));
+  const OwnFolder own;
+  const std::filesystem::path& folder = own.path;
 };
 
 TEST_F(WriteFile, ReplacesWhatWasThereAndLeavesNothingElse) {
   write_file(folder / "a", "a longer text", "--out");
   write_file(folder / "a", std::string_view("b\n\0c", 4), "--out");
-  EXPECT_EQ(read(folder / "a"), std::string("b\n\0c", 4));
+  EXPECT_EQ(read_file(folder / "a", "file"), std::string("b\n\0c", 4));
   EXPECT_EQ(count(), 1);
 }
 
@@ -64,7 +57,7 @@ TEST_F(WriteFile, AFullDiskLeavesTheOldFileAndNamesTheOption) {
   const InvalidInput error = error_of([&] { write_file(folder / "a", "new", "--html"); });
   EXPECT_EQ(error.field(), "--html");
   EXPECT_THAT(error.what(), HasSubstr((folder / "a").string()));
-  EXPECT_EQ(read(folder / "a"), "old");
+  EXPECT_EQ(read_file(folder / "a", "file"), "old");
   EXPECT_EQ(count(), 1);
 }
 

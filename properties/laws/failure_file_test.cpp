@@ -1,8 +1,6 @@
 #include "properties/laws/failure_file.hpp"
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <limits>
@@ -10,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "properties/files/configuration_json.hpp"
+#include "properties/files/own_folder_test.hpp"
 #include "properties/identity.hpp"
 #include "reference/error_of_test.hpp"
 #include "reference/invalid_input.hpp"
@@ -100,35 +99,27 @@ TEST(FailureFile, NamesWhatIsWrong) {
 }
 
 TEST(FailureFile, ASavedFailureReplacesItself) {
-  const auto folder = std::filesystem::path(testing::TempDir()) / "corpus";
-  std::filesystem::remove_all(folder);
-  const auto first = save(failure(), folder), second = save(failure(), folder);
+  const OwnFolder own;
+  const auto first = save(failure(), own.path), second = save(failure(), own.path);
   EXPECT_EQ(first, second);
-  EXPECT_EQ(read_corpus(folder).size(), 1u);
-  std::ofstream(folder / "x.json") << "[";
-  EXPECT_THROW(read_corpus(folder), InvalidInput);
-  EXPECT_THROW(read_corpus(folder / "none"), InvalidInput);
-}
-
-TEST(Corpus, AJsonLinesFileHoldsOneFailureOnEachLine) {
-  const auto file = std::filesystem::path(testing::TempDir()) / "failures-broken-line.jsonl";
-  const std::string line = to_json(failure()).dump() + '\n';
-  std::ofstream(file) << line << '\n' << line;
-  EXPECT_EQ(read_corpus(file).size(), 2u);
-  std::ofstream(file) << line << '\n' << "[\n";
-  EXPECT_THAT(error_text_of([&] { read_corpus(file); }), testing::HasSubstr("line 3"));
+  EXPECT_EQ(read_corpus(own.path).size(), 1u);
+  own.with("x.json", "[");
+  EXPECT_THROW(read_corpus(own.path), InvalidInput);
+  EXPECT_THROW(read_corpus(own.path / "none"), InvalidInput);
 }
 
 TEST(FailureFile, MayHoldOneFailureALine) {
-  const auto file = std::filesystem::path(testing::TempDir()) / "failures.jsonl";
-  const std::string line = to_json(failure()).dump() + '\n';
-  std::ofstream(file) << line << '\n' << to_json(failure_with_answer()).dump();
-  const auto corpus = read_corpus(file);
+  const OwnFolder own;
+  const std::string line = to_json(failure()).dump() + "\n\n";
+  const auto corpus =
+      read_corpus(own.with("failures.jsonl", line + to_json(failure_with_answer()).dump()));
   ASSERT_EQ(corpus.size(), 2u);
   EXPECT_FALSE(corpus[0].answer);
   EXPECT_TRUE(corpus[1].answer);
-  std::ofstream(file) << line << "{}";
-  EXPECT_THAT(error_text_of([&] { read_corpus(file); }), testing::HasSubstr("failure 2.schema"));
+  for (const auto& [second, error] : {std::pair("{}", "failure 2.schema"), {"[\n", "line 3"}}) {
+    const auto file = own.with("failures.jsonl", line + second);
+    EXPECT_THAT(error_text_of([&] { read_corpus(file); }), testing::HasSubstr(error));
+  }
 }
 
 TEST(Corpus, ACandidateThatIsNotInstalledIsSkipped) {
@@ -163,8 +154,8 @@ TEST(FailureFile, KeepsTheFeaturesAndIsNamedAfterThem) {
   Failure f = failure();
   f.features = "rim-edge";
   EXPECT_EQ(failure_from_json(to_json(f)).features, "rim-edge");
-  const auto folder = std::filesystem::path(testing::TempDir()) / "features";
-  EXPECT_THAT(save(f, folder).string(), testing::EndsWith("-agreement-missed-rim-edge.json"));
+  EXPECT_THAT(save(f, OwnFolder().path).string(),
+              testing::EndsWith("-agreement-missed-rim-edge.json"));
   EXPECT_FALSE(to_json(failure()).contains("features"));
 }
 

@@ -2,12 +2,13 @@
 
 #include <cstdlib>
 #include <fmt/format.h>
-#include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <map>
 
 #include "candidates/candidates.hpp"
+#include "properties/files/disk.hpp"
+#include "properties/files/own_folder_test.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/make_report.hpp"
 
@@ -17,10 +18,7 @@ namespace {
 using testing::HasSubstr;
 using testing::StartsWith;
 
-std::string text_of(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return std::string((std::istreambuf_iterator<char>(in)), {});
-}
+std::string text_of(const std::filesystem::path& file) { return read_file(file, "file"); }
 
 TEST(Figures, EachComesAsPictureTwiceAndAsData) {
   if (std::system("command -v gnuplot >/dev/null 2>&1") != 0) GTEST_SKIP() << "no gnuplot here";
@@ -39,9 +37,9 @@ TEST(Figures, EachComesAsPictureTwiceAndAsData) {
       if (row.candidate == "prism:8") row.candidate = odd_name;
     }
   }
-  const std::filesystem::path folder = testing::TempDir() + "touchstone figures's test";
-  std::filesystem::create_directory(folder);
-  std::ofstream(folder / "errors-of-an-earlier-run.svg") << "x";
+  const OwnFolder own;
+  const std::filesystem::path folder =
+      own.with("touchstone figures's test/errors-of-an-earlier-run.svg", "x").parent_path();
   write_figures(report, folder);
   EXPECT_FALSE(std::filesystem::exists(folder / "errors-of-an-earlier-run.svg"));
   for (const char* name : {"speed-accuracy", "speed-accuracy-cylinder-box", "errors-all",
@@ -66,7 +64,6 @@ TEST(Figures, EachComesAsPictureTwiceAndAsData) {
   EXPECT_THAT(text_of(folder / "errors-all.csv"), HasSubstr("\"a\"\"b,`touch run`'{c}\\\""));
   EXPECT_FALSE(std::filesystem::exists(folder / "run"));
   EXPECT_FALSE(std::filesystem::exists(folder / "figures.gnuplot"));
-  std::filesystem::remove_all(folder);
 }
 
 TEST(Figures, MarkWhoHasNoRoutineForSomePairs) {
@@ -76,8 +73,8 @@ TEST(Figures, MarkWhoHasNoRoutineForSomePairs) {
   c.classes = {"general-shallow"};
   c.candidates = find_candidates({"reference", "libccd-gjk"});  // without planes
   c.count = 2;
-  const std::filesystem::path folder = testing::TempDir() + "touchstone_partial_figures";
-  std::filesystem::create_directory(folder);
+  const OwnFolder own;
+  const std::filesystem::path& folder = own.path;
   write_figures(make_report(c, "x"), folder);
   for (const char* const name : {"speed-accuracy", "speed-accuracy-all", "errors-all"}) {
     const std::string svg = text_of(folder / (std::string(name) + ".svg"));
@@ -85,7 +82,6 @@ TEST(Figures, MarkWhoHasNoRoutineForSomePairs) {
     EXPECT_THAT(svg, HasSubstr(">reference<")) << name;
   }
   EXPECT_THAT(text_of(folder / "errors-cylinder-sphere.svg"), HasSubstr(">libccd-gjk<"));
-  std::filesystem::remove_all(folder);
 }
 
 TEST(Figures, ShowTheReleasesOfAnEngine) {
@@ -102,8 +98,8 @@ TEST(Figures, ShowTheReleasesOfAnEngine) {
       report.summary.push_back(row);
     }
   }
-  const std::filesystem::path folder = testing::TempDir() + "touchstone_history_figure";
-  std::filesystem::create_directory(folder);
+  const OwnFolder own;
+  const std::filesystem::path& folder = own.path;
   write_figures(report, folder);
   EXPECT_EQ(text_of(folder / "history.csv"),
             "release,pair,agreement,nanoseconds\n1.9,all,0.75,1500\n1.9,cylinder-box,0.75,1500\n"
@@ -112,7 +108,6 @@ TEST(Figures, ShowTheReleasesOfAnEngine) {
   for (const char* text : {">mine, median µs of a query<", ">1.10<", ">all pairs<"}) {
     EXPECT_THAT(svg, HasSubstr(text));
   }
-  std::filesystem::remove_all(folder);
 }
 
 // A figure may stand alone: its key tells the candidates apart by colour, symbol and dash.
@@ -136,10 +131,8 @@ TEST(Figures, EveryCandidateHasAStyleOfItsOwn) {
 }
 
 TEST(Figures, RefuseAFolderThatIsAFile) {
-  const std::filesystem::path file = testing::TempDir() + "touchstone_figures_is_a_file";
-  std::ofstream(file) << "x";
-  EXPECT_THROW(check_figures(file), InvalidInput);
-  std::filesystem::remove(file);
+  const OwnFolder own;
+  EXPECT_THROW(check_figures(own.with("file", "x")), InvalidInput);
 }
 
 }  // namespace

@@ -5,18 +5,14 @@
 // are tried.
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <filesystem>
 #include <fmt/format.h>
-#include <fstream>
 #include <functional>
 #include <gtest/gtest.h>
 #include <limits>
 #include <regex>
 #include <span>
-#include <unistd.h>
 
 #include <nlohmann/json.hpp>
 
@@ -24,6 +20,7 @@
 #include "candidates/npm_engines.hpp"
 #include "oracle/judge/score.hpp"
 #include "oracle/truth.hpp"
+#include "properties/files/own_folder_test.hpp"
 #include "properties/identity.hpp"
 #include "properties/moves.hpp"
 #include "reference/invalid_input.hpp"
@@ -34,8 +31,6 @@
 
 namespace touchstone {
 namespace {
-
-namespace fs = std::filesystem;
 
 /// A program is written for an engine in a language, and repeats a candidate.
 struct Engine {
@@ -225,23 +220,15 @@ std::string together(const std::vector<std::string>& programs, const std::string
 /// What each of the programs prints.
 std::vector<std::string> printed_by(const std::vector<std::string>& programs,
                                     const std::string& language) {
-  const fs::path folder = fs::temp_directory_path() / fmt::format("printed_test.{}", getpid());
-  fs::create_directory(folder);
-  const fs::path file = folder / (language == "c++"          ? "all.cpp"
-                                  : language == "javascript" ? "all.mjs"
-                                                             : "all.py");
-  std::ofstream(file) << together(programs, language);
-  const std::string run = language == "c++" ? fmt::format("g++ -w {0} -o {1}/all && {1}/all",
-                                                          file.string(), folder.string())
-                          : language == "javascript" ? "node " + file.string()
-                                                     : "python3 -B " + file.string();
-  FILE* const pipe = popen(run.c_str(), "r");
-  std::string text, block(1 << 16, '\0');
-  for (std::size_t n; (n = std::fread(block.data(), 1, block.size(), pipe)) > 0;) {
-    text.append(block, 0, n);
-  }
-  EXPECT_EQ(pclose(pipe), 0) << run;
-  fs::remove_all(folder);
+  const OwnFolder folder;
+  const char* const name = language == "c++"          ? "all.cpp"
+                           : language == "javascript" ? "all.mjs"
+                                                      : "all.py";
+  const std::string file = folder.with(name, together(programs, language)).string();
+  const std::string text = touchstone::printed_by(
+      language == "c++"          ? fmt::format("g++ -w {0} -o {0}.out && {0}.out", file)
+      : language == "javascript" ? "node " + file
+                                 : "python3 -B " + file);
   std::vector<std::string> result;
   for (std::size_t at = text.find("=== \n"); at != text.npos;) {
     const std::size_t next = text.find("=== \n", at + 5);

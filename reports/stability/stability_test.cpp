@@ -1,7 +1,6 @@
 #include "reports/stability/stability.hpp"
 
 #include <cmath>
-#include <fstream>
 #include <functional>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -17,6 +16,8 @@
 #include "oracle/judge/hull.hpp"
 #include "oracle/patch/convex_set.hpp"
 #include "properties/files/configuration_json.hpp"
+#include "properties/files/disk.hpp"
+#include "properties/files/own_folder_test.hpp"
 #include "properties/motions/motion.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/pages/page_data.hpp"
@@ -244,16 +245,15 @@ TEST(StabilityTable, OfMotionsAloneNeedsNoOther) {
 }
 
 TEST(StabilityFiles, HoldTheResultAsData) {
-  const auto folder = std::filesystem::path(testing::TempDir()) / "stability";
-  write_stability({{"ode"}, 1e-4, 0, {}, {}, Sequences{}}, "</script>x", folder);
-  std::ifstream file(folder / "stability.json"), page(folder / "stability.html");
-  const json written = json::parse(file);
+  const OwnFolder own;
+  write_stability({{"ode"}, 1e-4, 0, {}, {}, Sequences{}}, "</script>x", own.path);
+  const json written = json::parse(read_file(own.path / "stability.json", "file"));
   EXPECT_EQ(written["schema"], "touchstone-stability-1");
   EXPECT_EQ(written["command"], "</script>x");
   EXPECT_EQ(written["candidates"], json({"ode"}));
   EXPECT_EQ(written["sequences"]["steps"], 0);
   EXPECT_FALSE(written.contains("maps"));
-  const std::string text{std::istreambuf_iterator<char>(page), {}};
+  const std::string text = read_file(own.path / "stability.html", "file");
   EXPECT_EQ(data_of(text)["command"], "</script>x");
   EXPECT_THAT(text, testing::Not(testing::HasSubstr("</script>x")));
 }

@@ -3,20 +3,17 @@
 
 #include <array>
 #include <cmath>
-#include <cstdio>
-#include <filesystem>
-#include <fstream>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <map>
 #include <sstream>
-#include <unistd.h>
 
 #include <nlohmann/json.hpp>
 
 #include "oracle/patch/contact_patch.hpp"
 #include "properties/files/configuration_json.hpp"
 #include "properties/files/given_text.hpp"
+#include "properties/files/own_folder_test.hpp"
 #include "properties/files/strict_json.hpp"
 #include "reference/invalid_input.hpp"
 
@@ -24,7 +21,6 @@ namespace touchstone {
 namespace {
 
 using nlohmann::json;
-namespace fs = std::filesystem;
 
 /// Every shape, ties of every kind, contacts of every kind.
 Campaign few(unsigned workers = 1) {
@@ -196,9 +192,8 @@ TEST(CsvOfTestData, OfTheSuiteHasNoNumbersOfPatches) {
 
 TEST(NumPyOfTestData, IsReadByNumPy) {
   const auto all = data(few());
-  const fs::path file =
-      fs::temp_directory_path() / ("test_data." + std::to_string(getpid()) + ".npz");
-  std::ofstream(file, std::ios::binary) << file_of(all, TestDataFormat::npz);
+  const OwnFolder folder;
+  const auto file = folder.with("data.npz", file_of(all, TestDataFormat::npz));
   const char* const script = R"(
 import sys, numpy
 d = numpy.load(sys.argv[1])
@@ -210,16 +205,10 @@ for i in range(len(d["id"])):
     kinds = d["patch_kind"][first[i]:first[i + 1]]
     print(d["id"][i], d["ties"][i], ";".join(kinds), *(float(x).hex() for x in numbers))
 )";
-  const fs::path script_file = file.string() + ".py";
-  std::ofstream(script_file) << script;
-  FILE* const pipe =
-      popen((TOUCHSTONE_PYTHON " " + script_file.string() + " " + file.string()).c_str(), "r");
-  std::string printed, block(1 << 16, '\0');
-  for (std::size_t n; (n = std::fread(block.data(), 1, block.size(), pipe)) > 0;) {
-    printed.append(block, 0, n);
-  }
-  ASSERT_EQ(pclose(pipe), 0);
-  const auto lines = split(printed, '\n');
+  const auto lines =
+      split(printed_by(TOUCHSTONE_PYTHON " " + folder.with("read.py", script).string() + " " +
+                       file.string()),
+            '\n');
   ASSERT_EQ(lines.size(), all.size());
   const auto csv = split(file_of(all, TestDataFormat::csv), '\n');
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -245,8 +234,6 @@ for i in range(len(d["id"])):
       EXPECT_EQ(std::strtod(words[3 + k].c_str(), nullptr), expected[k]) << lines[i];
     }
   }
-  fs::remove(file);
-  fs::remove(script_file);
 }
 
 TEST(TestDataFormats, AreNamed) {

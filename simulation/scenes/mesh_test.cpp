@@ -8,6 +8,7 @@
 #include <random>
 
 #include "properties/files/given_text.hpp"
+#include "properties/files/own_folder_test.hpp"
 #include "reference/error_of_test.hpp"
 #include "simulation/scenes/robot_files_fixture.hpp"
 
@@ -290,20 +291,15 @@ TEST(Mesh, ThatIsDamagedIsRefusedByName) {
 }
 
 TEST(Mesh, IsFoundInAPackageOfAFolderAboveOrOfTheModelPath) {
-  const std::filesystem::path root =
-      std::filesystem::temp_directory_path() / fmt::format("touchstone-mesh-{}", getpid());
-  std::filesystem::create_directories(root / "arm" / "urdf");
-  std::filesystem::create_directories(root / "arm" / "meshes");
-  std::ofstream(root / "arm/meshes/wedge.stl") << ascii_stl(wedge());
+  const OwnFolder root;
+  root.with("arm/meshes/wedge.stl", ascii_stl(wedge()));
   const std::string text =
       "<robot name='r'><link name='l'><collision><geometry>"
       "<mesh filename='package://arm/meshes/wedge.stl'/></geometry></collision></link></robot>";
-  std::ofstream(root / "arm/urdf/arm.urdf") << text;
-  EXPECT_EQ(corners(read_robot(root / "arm/urdf/arm.urdf")).size(), 4U);
+  EXPECT_EQ(corners(read_robot(root.with("arm/urdf/arm.urdf", text))).size(), 4U);
   const Written elsewhere("elsewhere.urdf", text);
   EXPECT_THROW(read_robot(elsewhere.path), InvalidInput);
-  EXPECT_EQ(corners(read_robot(elsewhere.path, {root})).size(), 4U);
-  std::filesystem::remove_all(root);
+  EXPECT_EQ(corners(read_robot(elsewhere.path, {root.path})).size(), 4U);
 }
 
 TEST(Mesh, OfAWorldIsReadAsOneOfARobot) {

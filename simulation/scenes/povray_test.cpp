@@ -3,9 +3,9 @@
 #include <cstdlib>
 #include <filesystem>
 #include <gmock/gmock.h>
-#include <unistd.h>
 
 #include "properties/files/disk.hpp"
+#include "properties/files/own_folder_test.hpp"
 #include "reference/invalid_input.hpp"
 #include "simulation/scenes/robot_file.hpp"
 #include "simulation/scenes/scene_file.hpp"
@@ -17,11 +17,9 @@ namespace {
 using testing::HasSubstr;
 
 struct PovrayTest : testing::Test {
-  PovrayTest() { std::filesystem::create_directory(folder); }
-  ~PovrayTest() override { std::filesystem::remove_all(folder); }
   std::string text(const char* name) const { return read_file(folder / name, "file"); }
-  const std::filesystem::path folder =
-      std::filesystem::temp_directory_path() / ("touchstone-povray-" + std::to_string(getpid()));
+  const OwnFolder own;
+  const std::filesystem::path& folder = own.path;
 };
 
 /// One frame: a box that lies on its side, moved.

@@ -3,10 +3,9 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fmt/format.h>
-#include <fstream>
 #include <gmock/gmock.h>
-#include <unistd.h>
 
+#include "properties/files/own_folder_test.hpp"
 #include "simulation/scenes/robot_files_fixture.hpp"
 
 namespace touchstone {
@@ -105,27 +104,19 @@ TEST(Sdf, RefusesAVersionThatItsReaderDoesNotKnow) {
               HasSubstr("sdf.version is \"9.9\": must be 1.0 to 1."));
 }
 
-/// A folder of this test's own.
-struct Folder {
-  explicit Folder(const std::string& name)
-      : path(std::filesystem::temp_directory_path() / (std::to_string(getpid()) + '-' + name)) {
-    std::filesystem::create_directory(path);
-  }
-  ~Folder() { std::filesystem::remove_all(path); }
+struct ModelFolder : OwnFolder {
   /// Writes a model with this content; its first link is "l".
   void model(const std::string& name, const std::string& content) const {
-    std::filesystem::create_directory(path / name);
-    std::ofstream(path / name / "model.config")
-        << "<model><name>" << name << "</name><sdf version='1.7'>model.sdf</sdf></model>";
-    std::ofstream(path / name / "model.sdf")
-        << "<sdf version='1.7'><model name='" << name << "'>" << content << "</model></sdf>";
+    with(name + "/model.config",
+         "<model><name>" + name + "</name><sdf version='1.7'>model.sdf</sdf></model>");
+    with(name + "/model.sdf",
+         "<sdf version='1.7'><model name='" + name + "'>" + content + "</model></sdf>");
   }
-  std::filesystem::path path;
 };
 
 struct IncludedModels : testing::Test {
   const std::string ball = ball_link("l");
-  Folder models{"models"};
+  ModelFolder models;
 
   /// What becomes of a world that includes this URI.
   static std::string with(const std::string& uri,
@@ -173,7 +164,7 @@ TEST_F(IncludedModels, ThatIncludeThemselvesOrAreNotHereAreRefused) {
 }
 
 TEST_F(IncludedModels, AreThoseThatWereCheckedWhateverIsInTheWorkingFolder) {
-  const Folder working("working");
+  const ModelFolder working;
   working.model("ball", ball + ball);  // two links of one name: libsdformat would refuse it
   models.model("ball", ball);
   const std::filesystem::path before = std::filesystem::current_path();
