@@ -8,11 +8,9 @@
 #include <cmath>
 #include <csignal>
 #include <cstdlib>
-#include <cstring>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <sstream>
-#include <unistd.h>
 
 #include <nlohmann/json.hpp>
 
@@ -20,6 +18,7 @@
 #include "properties/files/configuration_json.hpp"
 #include "properties/files/disk.hpp"
 #include "properties/files/given_text.hpp"
+#include "properties/files/own_folder_test.hpp"
 #include "properties/files/strict_json.hpp"
 #include "properties/laws/failure_file.hpp"
 #include "reference/contact_of.hpp"
@@ -370,24 +369,6 @@ TEST(HostileInput, NumbersOfOptions) {
   });
 }
 
-/// A file of this test's own, gone with it.
-class Written {
- public:
-  explicit Written(const char* ending)
-      : path_(std::filesystem::temp_directory_path() /
-              ("touchstone-hostile-" + std::to_string(getpid()) + ending)) {}
-  ~Written() { std::filesystem::remove(path_); }
-  Written(const Written&) = delete;
-  Written& operator=(const Written&) = delete;
-  const std::filesystem::path& with(const std::string& text) const {
-    std::ofstream(path_, std::ios::binary) << text;
-    return path_;
-  }
-
- private:
-  std::filesystem::path path_;
-};
-
 /// A robot is read, and its scene simulated for a few steps. Nothing is printed, whatever a library
 /// has to say.
 void simulate_robot(const std::filesystem::path& file) {
@@ -403,42 +384,33 @@ void simulate_robot(const std::filesystem::path& file) {
   if (refused) std::rethrow_exception(refused);
 }
 
-TEST(HostileInput, Urdf) {
-  const Written file(".urdf");
-  expect_answer_or_refusal(
-      "URDF", 1.8, files_of(TOUCHSTONE_SCENES, ".urdf"),
-      [&](const std::string& text, std::uint64_t) { simulate_robot(file.with(text)); });
+void expect_answer_or_refusal_of_robots(const char* name, double share, const char* ending) {
+  const OwnFolder folder;
+  expect_answer_or_refusal(name, share, files_of(TOUCHSTONE_SCENES, ending),
+                           [&](const std::string& text, std::uint64_t) {
+                             simulate_robot(folder.with(std::string("robot") + ending, text));
+                           });
 }
 
-TEST(HostileInput, Sdf) {
-  const Written file(".sdf");
-  expect_answer_or_refusal(
-      "SDF", 0.2, files_of(TOUCHSTONE_SCENES, ".sdf"),
-      [&](const std::string& text, std::uint64_t) { simulate_robot(file.with(text)); });
-}
+TEST(HostileInput, Urdf) { expect_answer_or_refusal_of_robots("URDF", 1.8, ".urdf"); }
+TEST(HostileInput, Sdf) { expect_answer_or_refusal_of_robots("SDF", 0.2, ".sdf"); }
+TEST(HostileInput, Mjcf) { expect_answer_or_refusal_of_robots("MJCF", 0.5, ".xml"); }
 
 TEST(HostileInput, Meshes) {
   const std::filesystem::path models = std::filesystem::path(TOUCHSTONE_SCENES) / "models";
-  const Written robot(".urdf");
+  const OwnFolder folder;
   for (const auto& [ending, package] :
        {std::pair{".stl", "arm_description"}, {".dae", "arm_description"}, {".obj", "cart"}}) {
-    const Written mesh(ending);
     expect_answer_or_refusal(
         ending, 0.8, files_of(models / package / "meshes", ending),
         [&](const std::string& text, std::uint64_t) {
-          simulate_robot(
-              robot.with("<robot name='r'><link name='l'><collision><geometry><mesh "
-                         "filename='" +
-                         mesh.with(text).string() + "'/></geometry></collision></link></robot>"));
+          const std::string mesh = folder.with(std::string("mesh") + ending, text).string();
+          simulate_robot(folder.with("robot.urdf",
+                                     "<robot name='r'><link name='l'><collision><geometry><mesh "
+                                     "filename='" +
+                                         mesh + "'/></geometry></collision></link></robot>"));
         });
   }
-}
-
-TEST(HostileInput, Mjcf) {
-  const Written file(".xml");
-  expect_answer_or_refusal(
-      "MJCF", 0.5, files_of(TOUCHSTONE_SCENES, ".xml"),
-      [&](const std::string& text, std::uint64_t) { simulate_robot(file.with(text)); });
 }
 
 }  // namespace
