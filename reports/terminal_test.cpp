@@ -18,11 +18,17 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
 /// Lines that are wider than the terminal, but for commands.
 std::vector<std::string> wide_lines(const std::string& text, std::size_t columns) {
   std::vector<std::string> wide;
-  std::istringstream lines(text);
-  for (std::string line; std::getline(lines, line);) {
+  for (const std::string& line : lines_of(text)) {
     const bool is_command = line.find("./touchstone") != std::string::npos;
     const auto letters =
         std::count_if(line.begin(), line.end(), [](char c) { return (c & 0xc0) != 0x80; });
@@ -167,13 +173,6 @@ Report report_of(const std::vector<std::pair<std::string, std::uint64_t>>& agree
     }
   }
   return report;
-}
-
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream in(text);
-  for (std::string line; std::getline(in, line);) lines.push_back(line);
-  return lines;
 }
 
 TEST(ReportTable, HasTheBestFirstAndOurOwnRoutineBelowTheOthers) {

@@ -1,13 +1,13 @@
 // The laws themselves: what they accept, and that each finds its fault. Causes of failures: which
 // features meet, what is known, with what to start.
 #include <cmath>
-#include <fstream>
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 #include <set>
 
 #include "candidates/candidates.hpp"
 #include "properties/arbitrary.hpp"
+#include "properties/files/own_folder_test.hpp"
 #include "properties/identity.hpp"
 #include "properties/laws/check.hpp"
 #include "properties/laws/failure_file.hpp"
@@ -240,6 +240,12 @@ TEST_P(ReferenceKeeps, EveryLaw) {
 
 INSTANTIATE_TEST_SUITE_P(, ReferenceKeeps, testing::ValuesIn(all_pairs), name_of_other);
 
+std::vector<const Law*> every_law() {
+  std::vector<const Law*> result;
+  for (const Law& law : all_laws()) result.push_back(&law);
+  return result;
+}
+
 TEST(Check, SimplifiesAFailureToOneThatFailsAlike) {
   CandidateProcess bullet(find_candidate("bullet"), 0);
   CheckOptions options;
@@ -300,7 +306,7 @@ std::string told(const std::vector<LawResult>& results) {
 
 TEST(Check, WorkersDoNotChangeTheResult) {
   CheckOptions options;
-  for (const Law& law : all_laws()) options.laws.push_back(&law);
+  options.laws = every_law();
   options.pairs = {Pair::sphere, Pair::box};
   options.classes = {"general+shallow", "edge-cap"};
   options.count = 20;  // more than one chunk
@@ -325,8 +331,7 @@ TEST(Check, WorkersDoNotChangeTheResult) {
 
 // What a law finds does not depend on the laws beside it.
 TEST(Check, LawsFindTogetherWhatEachFindsAlone) {
-  std::vector<const Law*> laws;
-  for (const Law& law : all_laws()) laws.push_back(&law);
+  const auto laws = every_law();
   int found = 0;
   for (const char* name : {"bullet", "ode", "reference"}) {
     CandidateProcess candidate(find_candidate(name), 0);
@@ -351,7 +356,7 @@ TEST(Check, LawsFindTogetherWhatEachFindsAlone) {
 TEST(Check, HoldsHostileConfigurationsToTheLawsThatApply) {
   CandidateProcess reference(find_candidate("reference"), 0);
   CheckOptions options;
-  for (const Law& law : all_laws()) options.laws.push_back(&law);
+  options.laws = every_law();
   options.pairs = {Pair::sphere};  // the quickest
   options.classes = {"hostile"};
   options.count = 400;
@@ -390,14 +395,17 @@ TEST(Corpus, APairThatIsNotSupportedAnyMoreIsNotFixed) {
   EXPECT_EQ(replayed.at(0).now, "unsupported");
 }
 
+// Where a configuration is not answered, nothing else is asked about it.
 TEST(Check, ACrashIsAFailureOfTheLawAnswersAlone) {
   add_sabotage();
   CandidateProcess crashing(find_candidate("misdeed:2"), 0, {10, 256});
   const Configuration c = make_configuration({Pair::sphere, "general-shallow", 1, 0});
-  for (const Law& law : all_laws()) {
-    const auto v = broken(law, c, crashing, {});
-    EXPECT_EQ(v.has_value(), law.name == "answers") << law.name;
-    EXPECT_TRUE(!v || v->failure == "crashed");
+  const auto laws = every_law();
+  const auto in_session = broken_in_session(laws, c, crashing, {});
+  for (std::size_t i = 0; i < laws.size(); ++i) {
+    for (const auto& v : {broken(*laws[i], c, crashing, {}), in_session[i]}) {
+      EXPECT_EQ(v ? v->failure : "", laws[i]->name == "answers" ? "crashed" : "") << laws[i]->name;
+    }
   }
 }
 
@@ -424,19 +432,6 @@ TEST(Check, AFailureThatNeedsEarlierQuestionsIsNone) {
   }
 }
 
-// Where a configuration is not answered, nothing else is asked about it.
-TEST(Check, ACrashEndsTheQuestionsAboutAConfiguration) {
-  add_sabotage();
-  CandidateProcess crashing(find_candidate("misdeed:2"), 0, {10, 256});
-  std::vector<const Law*> laws;
-  for (const Law& law : all_laws()) laws.push_back(&law);
-  const Configuration c = make_configuration({Pair::sphere, "general-shallow", 1, 0});
-  const auto violations = broken_in_session(laws, c, crashing, {});
-  for (std::size_t i = 0; i < laws.size(); ++i) {
-    EXPECT_EQ(violations[i].has_value(), laws[i]->name == "answers") << laws[i]->name;
-  }
-}
-
 // After five failures in a row a command is asked no more, but what a law asks about one
 // configuration must not hide another one's violation.
 TEST(Check, ACommandIsAskedAboutEveryConfigurationThatALawIsTriedOn) {
@@ -455,9 +450,8 @@ class Far(Candidate):
         return None
 run(Far)
 )";
-  const std::string file = testing::TempDir() + "dies_far_away.py";
-  std::ofstream(file) << script;
-  add_command("/usr/bin/python3 -B " + file);
+  const OwnFolder own;
+  add_command("/usr/bin/python3 -B " + own.with("dies_far_away.py", script).string());
   CandidateProcess candidate(find_candidate("dies-far-away"), 0);
   Law moved{"moved", "", [](const Configuration&) { return true; }, {}, {}};
   moved.questions = [](const Configuration& c, const Bar&) {

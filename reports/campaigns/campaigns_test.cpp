@@ -7,6 +7,7 @@
 
 #include "candidates/candidates.hpp"
 #include "properties/files/disk.hpp"
+#include "properties/files/own_folder_test.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/campaigns/made_up_test.hpp"
 #include "reports/campaigns/shard.hpp"
@@ -189,15 +190,15 @@ TEST(Merge, OfACandidateThatHangsIsTheSameForEverySplit) {
   campaign.limits.seconds = 0.01;
   campaign.count = Unit::max_size + 20;
   const Plan plan = make_plan(campaign, "x");
+  const OwnFolder own;
   const auto split = [&](std::uint64_t shards, unsigned workers) {
     campaign.workers = workers;
     Merge merge;
     for (std::uint64_t number = 1; number <= shards; ++number) {
       ShardState state(plan, {number, shards});
-      const std::filesystem::path file = testing::TempDir() + "shard of a candidate that hangs";
+      const std::filesystem::path file = own.path / "shard";
       EXPECT_TRUE(run_shard(campaign, state, file, {.progress = false}, [] { return true; }));
       merge.add(read_shard(file, "file"), "file");
-      std::filesystem::remove(file);
     }
     return campaign_json(merge.whole(false));
   };
@@ -219,10 +220,9 @@ TEST(Merge, ReadsAShardThatIsLargerThanOtherFiles) {
   text.resize(text.size() - 9);  // without its checksum
   text.insert(text.find('\n'), max_file_size, ' ');
   text += checksum(text) + '\n';
-  const std::filesystem::path file = testing::TempDir() + "a large shard";
-  write_file(file, text, "file");
-  EXPECT_EQ(read_shard(file, "file").plan.candidates, std::vector<std::string>{"reference"});
-  std::filesystem::remove(file);
+  const OwnFolder own;
+  EXPECT_EQ(read_shard(own.with("large", text), "file").plan.candidates,
+            std::vector<std::string>{"reference"});
   EXPECT_THROW(read_shard("/dev/zero", "file"), InvalidInput);
 }
 
@@ -235,24 +235,15 @@ TEST(Merge, SumsUpByGroupsAlone) {
 }
 
 TEST(Merge, RefusesWhatOverlapsWhatIsMissingAndWhatIsForeign) {
-  EXPECT_THAT(
-      [] {
-        merged({part(0, 3), part(2, 4)});
-      },
-      ThrowsMessage<InvalidInput>(
-          HasSubstr("cylinder-sphere/general+shallow, configurations 500 to 999")));
-  EXPECT_THAT(
-      [] {
-        merged({part(0, 1), part(2, 4)});
-      },
-      ThrowsMessage<InvalidInput>(HasSubstr("500 of 2000 configurations are missing, the "
-                                            "first of them cylinder-box/rim-face")));
-  EXPECT_THAT(
-      [] {
-        merged({part(0, 1), part(1, 4, 2)});
-      },
-      ThrowsMessage<InvalidInput>(HasSubstr("seed is 2, not 1")));
-  EXPECT_THROW(merged({}), InvalidInput);
+  const auto expect_refused = [](const std::vector<ShardState>& parts, const char* why) {
+    EXPECT_THAT([&] { merged(parts); }, ThrowsMessage<InvalidInput>(HasSubstr(why)));
+  };
+  expect_refused({part(0, 3), part(2, 4)},
+                 "cylinder-sphere/general+shallow, configurations 500 to 999");
+  expect_refused({part(0, 1), part(2, 4)},
+                 "500 of 2000 configurations are missing, the first of them cylinder-box/rim-face");
+  expect_refused({part(0, 1), part(1, 4, 2)}, "seed is 2, not 1");
+  expect_refused({}, "");
 }
 
 TEST(Merge, RefusesPartsThatAreCutIntoUnitsOfAnotherSize) {
