@@ -67,7 +67,7 @@ int CapOnCap::spread_lens(std::array<Vec2, max_points>& points) const {
     return 4;
   }
   const double alike = lower / higher;
-  const double uneven = ramp(alike, are_alike, 0.43) * ramp(missing_, has_left, 0.018);
+  const double uneven = ramp(alike, are_alike, 0.43) * ramp(missing_, has_left, 0.026);
   const bool first_is_flatter = rise1 < rise2;
   const Circle& round = first_is_flatter ? circle2_ : circle1_;
   const Circle& flat = first_is_flatter ? circle1_ : circle2_;
@@ -108,9 +108,17 @@ int CapOnCap::spread(const Vec2&, const Vec2& deepest, double clearness,
   int count = 0;
   if (over_.has_begun()) count = spread_lens(points);
   if (!over_.is_over()) {
-    for (int i = 0; i < count; ++i) points[i] *= over_.new_size();
-    const Vec2 anchor = anchor_.normalized();
-    for (const Vec2& arm : three_arms(over_.old_size() * radius_, anchor)) points[count++] = arm;
+    // The lens's points set out from the disc's, which then follow them: whatever of them is cut
+    // off, none comes or goes anywhere else.
+    const int lens = count;
+    const double set_out = ramp(over_.progress, 0, 1), follow = ramp(over_.progress, 1, 2);
+    const auto arms = three_arms(radius_, anchor_.normalized());
+    for (int i = 0; i < lens; ++i) points[i] = arms[i % 3] + set_out * (points[i] - arms[i % 3]);
+    for (int i = 0; i < 3; ++i) {
+      points[count] = arms[i];
+      if (lens > 0) points[count] += follow * (points[i] - arms[i]);
+      ++count;
+    }
   }
   if (clearness > 0) points[count++] = clearness * deepest;
   return count;

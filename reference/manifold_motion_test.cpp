@@ -366,6 +366,26 @@ struct Step {
   }
 };
 
+// What is cut off of the points of the disc, and of those of the lens, has another hull each.
+TEST(ManifoldMotion, HullNeverJumpsAsCapsThatLeanBeginToLeaveEachOther) {
+  constexpr double step = 1e-9;
+  const double most = 8 * std::sqrt(step);
+  for (const double tilt : {1e-6, 1e-5, 1e-4}) {
+    const Quaternion turn(Eigen::AngleAxisd(tilt, Vec3::UnitX()));
+    const Vec3 to_cap = turn * Vec3(0, 0, -1);
+    for (const double offset : {1e-6, 0.009001, 0.018001}) {
+      for (double heading = 0.1; heading < 6.3; heading += 0.2) {
+        const Vec3 way(std::cos(heading), std::sin(heading), 0);
+        const auto at = [&](double apart) {
+          const Vec3 cap = apart * way + Vec3(0, 0, 1);  // the deeper half of it overlaps
+          return contact({Cylinder(1, 1), Pose(cap - to_cap, turn), Cylinder(1, 1), Pose()}, 0);
+        };
+        EXPECT_LE(hull_movement(at(offset - step), at(offset + step)), most) << tilt;
+      }
+    }
+  }
+}
+
 // There the normal turns from one cap's to the other's while the rims' crossing moves by the square
 // of the caps' offset: by a few hundred times the step.
 TEST(ManifoldMotion, HullNeverJumpsWhereRimsCrossNextToTheDeepestPlace) {
