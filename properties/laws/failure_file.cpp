@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <memory>
+#include <optional>
+#include <span>
 
 #include <nlohmann/json.hpp>
 
