@@ -8,7 +8,6 @@
 #include <fmt/ranges.h>
 
 #include "candidates/candidates.hpp"
-#include "properties/files/disk.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/row_text.hpp"
 

@@ -8,7 +8,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "reports/make_report.hpp"
 #include "reports/small_report_test.hpp"
 
 namespace touchstone {

@@ -8,7 +8,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "candidates/host/interruption.hpp"
 #include "candidates/testing/hostile.hpp"
 #include "reports/replay.hpp"
 #include "reports/report_json.hpp"

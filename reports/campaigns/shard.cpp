@@ -10,6 +10,7 @@
 
 #include "properties/files/bytes.hpp"
 #include "properties/files/disk.hpp"
+#include "properties/files/given_text.hpp"
 #include "properties/files/strict_json.hpp"
 #include "reference/invalid_input.hpp"
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <boost/icl/interval_set.hpp>
 #include <cstdint>
 #include <filesystem>

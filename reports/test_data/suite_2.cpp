@@ -1,14 +1,11 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
 #include <optional>
 #include <set>
 
-#include "properties/named.hpp"
 #include "properties/numbers.hpp"
-#include "properties/pose_class.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/test_data/small_numbers.hpp"
 #include "reports/test_data/test_data.hpp"

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <map>
 #include <string>
 
 #include <nlohmann/json_fwd.hpp>

@@ -3,7 +3,6 @@
 #include <set>
 #include <string>
 
-#include "reference/support.hpp"
 #include "simulation/scenes/exact_motion.hpp"
 #include "simulation/scenes/robot_file.hpp"
 

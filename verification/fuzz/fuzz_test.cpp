@@ -13,7 +13,6 @@
 #include <optional>
 #include <random>
 #include <set>
-#include <string>
 #include <vector>
 
 #include "properties/identity.hpp"
