@@ -67,7 +67,7 @@ int CapOnCap::spread_lens(std::array<Vec2, max_points>& points) const {
     return 4;
   }
   const double alike = lower / higher;
-  const double uneven = ramp(alike, are_alike, 0.43) * ramp(missing_, has_left, 0.026);
+  const double uneven = ramp(alike, are_alike, 0.43) * ramp(missing_, has_left, 0.02);
   const bool first_is_flatter = rise1 < rise2;
   const Circle& round = first_is_flatter ? circle2_ : circle1_;
   const Circle& flat = first_is_flatter ? circle1_ : circle2_;

@@ -32,7 +32,7 @@ class CapOnCap {
  private:
   /// How far a cap leaves the other one, in parts of the smaller radius, until that is clear; and
   /// twice this part further on three points have been handed over to four.
-  static constexpr double clear = 1e-6, handed_over = 0.009;
+  static constexpr double clear = 1e-6, handed_over = 0.0081;
 
   /// Points whose hull covers 0.6 of the lens in every direction from its centroid: four,
   /// or five on the way from one way to place four to another. Returns how many.

@@ -49,7 +49,7 @@ TEST(CapOnCap, PointsLieInThePatchAndHoldTheDeepestPlaceIfThatIsClear) {
     const double radius = 1e-3 * *rc::gen::inRange(300, 3000);
     // Also where the disc's points are all but handed over to the lens's.
     const double part =
-        *rc::gen::element(0.0, 1e-4, 3e-3, 0.00500025, 0.00900025, 0.02, 0.1, 0.5, 0.9, 0.99);
+        *rc::gen::element(0.0, 1e-4, 3e-3, 0.00500025, 0.00810025, 0.02, 0.1, 0.5, 0.9, 0.99);
     const CapOnCap patch = lens_of(radius, std::abs(1 - radius) + part * 2 * std::min(radius, 1.0));
     const Vec2 down = direction(1e-3 * *rc::gen::inRange(0, 6284));
     const double clearness = 0.1 * *rc::gen::inRange(0, 11);

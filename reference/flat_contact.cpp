@@ -130,8 +130,11 @@ void disc_on_disc(const Manifold& to, const FacingFeature& first, const FacingFe
   auto found = points_of(plane, patch, patch.middle(), radius, 1, s);
   // Of caps that hardly face each other any more the points draw together to the deepest: as they
   // lean, for where their rims cross next to the deepest place the normal leans anywhere between.
-  const double facing = facing_part(radius, s.slope().norm(), plane.margins().flat);
-  if (const double part = std::min(first.part * second.part, facing); part < 1) {
+  double part = first.part * second.part;
+  if (found.clearness > 0) {
+    part = std::min(part, facing_part(radius, s.slope().norm(), plane.margins().flat));
+  }
+  if (part < 1) {
     const Vec2 to_where = found.clearness * found.deepest;
     for (int i = 0; i < found.count; ++i) {
       found.points[i] = to_where + part * (found.points[i] - to_where);
