@@ -14,8 +14,8 @@
 #include "candidates/host/interruption.hpp"
 #include "properties/identity.hpp"
 #include "properties/named.hpp"
-#include "reports/covered_pairs.hpp"
 #include "reports/factors.hpp"
+#include "reports/row_text.hpp"
 #include "reports/statistics.hpp"
 #include "reports/tally.hpp"
 

@@ -6,7 +6,6 @@
 #include <limits>
 #include <vector>
 
-#include "reports/covered_pairs.hpp"
 #include "reports/sampler.hpp"
 
 namespace touchstone {
@@ -22,6 +21,25 @@ std::string covered_mark(const Report& report, const ResultRow& row) {
 }
 
 }  // namespace
+
+CoveredPairs covered_pairs(const Report& report, const std::string& group,
+                           const std::string& candidate) {
+  CoveredPairs result;
+  for (const ResultRow& row : report.summary) {
+    if (row.pair == "all" || row.pose_class != group || row.candidate != candidate) continue;
+    ++result.all;
+    result.covered += row.statistics.supported() > 0;
+  }
+  return result;
+}
+
+std::string CoveredPairs::text() const {
+  return are_all() ? "" : fmt::format(" ({} of {} pairs)", covered, all);
+}
+
+std::string covered_text(const Report& report, const ResultRow& row) {
+  return row.pair == "all" ? covered_pairs(report, row.pose_class, row.candidate).text() : "";
+}
 
 std::string agreement_text(const Statistics& s) {
   if (s.supported() == 0) return "-";

@@ -14,9 +14,9 @@
 
 #include "properties/files/disk.hpp"
 #include "reference/invalid_input.hpp"
-#include "reports/covered_pairs.hpp"
 #include "reports/history.hpp"
 #include "reports/pages/page.hpp"
+#include "reports/row_text.hpp"
 
 namespace touchstone {
 
