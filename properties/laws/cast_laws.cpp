@@ -152,6 +152,7 @@ std::optional<Violation> judge_turned(const CastQuestion& q, std::span<const Cas
 
 const std::vector<CastLaw>& all_cast_laws() {
   static const std::vector<CastLaw> laws = {
+      {"cast-answers", "Every cast has an answer.", nullptr, nullptr},
       {"cast-touch",
        "At an answered touch the bodies are neither apart nor, but from the start, "
        "inside each other.",
@@ -205,19 +206,37 @@ std::vector<CastIdentity> casts_to_check(Pair pair, const CheckOptions& options)
   return result;
 }
 
-/// The answers if there are all of them.
-std::optional<std::vector<Cast>> all_answered(std::span<const std::optional<CastAnswer>> answers) {
-  std::vector<Cast> result;
+/// What a law is told of a cast: all answers that it asks for, or how the first one failed.
+struct Answered {
+  std::vector<Cast> casts;
+  std::string failure;
+};
+
+/// None where the candidate has no cast of it, or fails in one that the law asks besides.
+std::optional<Answered> all_answered(std::span<const std::optional<CastAnswer>> answers) {
+  Answered result;
+  if (answers.front()) result.failure = answers.front()->failure;
+  if (!result.failure.empty()) return result;
   for (const auto& answer : answers) {
     if (!answer || !answer->cast) return std::nullopt;
-    result.push_back(*answer->cast);
+    result.casts.push_back(*answer->cast);
   }
   return result;
 }
 
+/// Only one law is about casts that fail, and about nothing else.
+std::optional<Violation> judged(const CastLaw& law, const CastQuestion& cast,
+                                const Answered& answered, const Bar& bar) {
+  if (law.judge) {
+    return answered.failure.empty() ? law.judge(cast, answered.casts, bar) : std::nullopt;
+  }
+  return answered.failure.empty() ? std::nullopt
+                                  : std::optional(Violation{"failed", 1, answered.failure});
+}
+
 /// The answers to each cast and to what the law asks besides, all asked together. None where the
 /// law says nothing of the cast, or an answer is missing.
-using AllAnswers = std::vector<std::optional<std::vector<Cast>>>;
+using AllAnswers = std::vector<std::optional<Answered>>;
 AllAnswers answers_to(const CastLaw& law, std::span<const CastQuestion> casts,
                       const AnswersCasts& ask) {
   std::vector<CastQuestion> asked;
@@ -262,7 +281,7 @@ std::pair<CastQuestion, Violation> simplest(const MetCast& met, std::size_t max_
     const AllAnswers answers = answers_to(*met.law, next, ask);
     for (std::size_t i = 0; i < next.size(); ++i) {
       if (!answers[i]) continue;
-      const auto found = met.law->judge(next[i], *answers[i], bar);
+      const auto found = judged(*met.law, next[i], *answers[i], bar);
       if (!found || found->failure != met.violation.failure) continue;
       if (!met.features.empty() && meeting_features(next[i]) != met.features) continue;
       violation = *found;
@@ -320,7 +339,7 @@ std::vector<Failure> simplified(const std::vector<MetCast>& all, const AnswersCa
 std::optional<Violation> broken(const CastLaw& law, const CastQuestion& cast,
                                 const AnswersCasts& answers, const Bar& bar) {
   const auto answered = answers_to(law, {&cast, 1}, answers).front();
-  return answered ? law.judge(cast, *answered, bar) : std::nullopt;
+  return answered ? judged(law, cast, *answered, bar) : std::nullopt;
 }
 
 std::vector<LawResult> check_casts(const AnswersCasts& answers,
@@ -338,7 +357,7 @@ std::vector<LawResult> check_casts(const AnswersCasts& answers,
       for (std::size_t i = 0; i < casts.size(); ++i) {
         if (!all[i]) continue;
         ++result.tried;
-        const auto violation = law->judge(casts[i], *all[i], options.bar);
+        const auto violation = judged(*law, casts[i], *all[i], options.bar);
         if (!violation) continue;
         ++result.broken;
         ++result.counts[violation->failure];

@@ -23,7 +23,7 @@ struct CastLaw {
   /// that one. Null: it judges the first answer alone.
   std::vector<CastQuestion> (*questions)(const CastQuestion& first);
 
-  /// `answers` belong to the cast, then to the questions.
+  /// `answers` belong to the cast, then to the questions. Null: it asks for an answer alone.
   std::optional<Violation> (*judge)(const CastQuestion& first, std::span<const Cast> answers,
                                     const Bar& bar);
 };
@@ -42,7 +42,7 @@ using AnswersCasts =
     std::function<std::vector<std::optional<CastAnswer>>(std::span<const CastQuestion>)>;
 
 /// Asks what the law asks and judges the answers. None if it holds, says nothing of this cast, or
-/// an answer is missing.
+/// an answer is missing; "cast-answers" alone says where one fails.
 std::optional<Violation> broken(const CastLaw& law, const CastQuestion& cast,
                                 const AnswersCasts& answers, const Bar& bar);
 

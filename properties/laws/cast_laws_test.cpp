@@ -109,6 +109,32 @@ TEST(CastLaws, FindWhatDependsOnTheWorldsAxes) {
   EXPECT_GT(found.at("cast-rotation not-invariant"), 5U);
 }
 
+TEST(CastLaws, TellOfCastsThatFailAndJudgeTheOthers) {
+  CheckOptions options;
+  options.pairs = {Pair::box};
+  options.groups = {Group::everyday};
+  options.count = 40;
+  std::vector<const CastLaw*> laws;
+  for (const CastLaw& law : all_cast_laws()) laws.push_back(&law);
+  const auto answer = [&](std::span<const CastQuestion> questions) {
+    std::vector<std::optional<CastAnswer>> answers;
+    for (const CastQuestion& q : questions) {
+      answers.push_back(q.sweep.x() > 0 ? CastAnswer{{}, "Segmentation fault"}
+                                        : CastAnswer{cast(q.configuration, q.sweep)});
+    }
+    return answers;
+  };
+  for (const LawResult& r : check_casts(answer, laws, options)) {
+    EXPECT_EQ(r.broken > 0, r.law == "cast-answers") << r.law;
+    EXPECT_LT(r.broken, r.tried);
+    for (const Failure& f : r.failures) {
+      EXPECT_EQ(f.violation.failure, "failed");
+      EXPECT_EQ(f.violation.detail, "Segmentation fault");
+      EXPECT_GT(f.sweep.value().x(), 0);
+    }
+  }
+}
+
 TEST(CastLaws, AreFoundByTheirNames) {
   for (const CastLaw& law : all_cast_laws()) EXPECT_EQ(find_cast_law(law.name), &law);
   EXPECT_EQ(find_cast_law("cast-cast"), nullptr);
