@@ -62,6 +62,20 @@ void add_distinct(const ContactPlane& plane, const PatchPoints<Patch>& found, co
   }
 }
 
+/// Of caps that hardly face each other any more the points draw together to the deepest: as they
+/// lean, for where their rims cross next to the deepest place the normal leans anywhere between.
+[[gnu::noinline]] void draw_to_deepest(PatchPoints<CapOnCap>& found, const FacingFeature& first,
+                                       const FacingFeature& second, const ContactPlane& plane,
+                                       double radius, const Surfaces& s) {
+  const double facing = facing_part(radius, s.slope().norm(), plane.margins().flat);
+  const double part = std::min(first.part * second.part, facing);
+  if (part == 1) return;
+  const Vec2 to_where = found.clearness * found.deepest;
+  for (int i = 0; i < found.count; ++i) {
+    found.points[i] = to_where + part * (found.points[i] - to_where);
+  }
+}
+
 }  // namespace
 
 void disc_on_rectangle(const Manifold& to, const FacingFeature& cap, const FacingFeature& face) {
@@ -128,18 +142,7 @@ void disc_on_disc(const Manifold& to, const FacingFeature& first, const FacingFe
   if (patch.empty()) return plane.add(patch.middle() + patch.nearest(), s);
   const double radius = std::min(c1.radius, c2.radius);
   auto found = points_of(plane, patch, patch.middle(), radius, 1, s);
-  // Of caps that hardly face each other any more the points draw together to the deepest: as they
-  // lean, for where their rims cross next to the deepest place the normal leans anywhere between.
-  double part = first.part * second.part;
-  if (found.clearness > 0) {
-    part = std::min(part, facing_part(radius, s.slope().norm(), plane.margins().flat));
-  }
-  if (part < 1) {
-    const Vec2 to_where = found.clearness * found.deepest;
-    for (int i = 0; i < found.count; ++i) {
-      found.points[i] = to_where + part * (found.points[i] - to_where);
-    }
-  }
+  if (found.clearness > 0) draw_to_deepest(found, first, second, plane, radius, s);
   add_distinct(plane, found, patch.middle(), radius, s);
 }
 
