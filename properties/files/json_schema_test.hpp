@@ -46,7 +46,7 @@ class JsonSchema {
   /// Of an object with the members of this one, whatever its values but for those that decide which
   /// members it has.
   template <class T>
-  json object(T sample);
+  json object(T&& sample);
   const json& definitions() const { return definitions_; }
 
  private:
@@ -155,7 +155,7 @@ nlohmann::ordered_json JsonSchema::of(const Rule& rule) {
 }
 
 template <class T>
-nlohmann::ordered_json JsonSchema::object(T sample) {
+nlohmann::ordered_json JsonSchema::object(T&& sample) {
   SchemaOut out(*this);
   if constexpr (requires { members(out, sample); }) {
     members(out, sample);
