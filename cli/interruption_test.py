@@ -130,7 +130,7 @@ def ctrl_c_while_scoring(program, folder):
 
 
 def termination_while_timing(program, folder):
-    run = Run(program, folder, "--count", "2")
+    run = Run(program, folder, "--count", "1")
     progress = run.wait_for(r"(?<!\d)[1-9]\d* of (\d+) pose classes timed")
     os.kill(run.pid, signal.SIGTERM)
     status = run.end()

@@ -36,7 +36,7 @@ prefix=$folder/root/usr
 touchstone=$prefix/bin/touchstone
 [ "$("$touchstone" list candidates | grep -c '^[a-z]')" = "$("$1/touchstone" list candidates | grep -c '^[a-z]')" ] ||
   fail "the unpacked program finds other candidates"
-(cd "$folder" && "$touchstone" report --pair cylinder-plane --count 1 >table 2>messages) ||
+(cd "$folder" && "$touchstone" report --pair cylinder-plane --count 1 --only scores >table 2>messages) ||
   { cat "$folder/messages"; fail "report"; }
 [ -s "$folder/out/report.html" ] || fail "no report.html"
 "$touchstone" replay --certify cylinder-box/rim-face/1/0 >"$folder/proof.json"

@@ -97,7 +97,8 @@ constexpr void (*deeds[])(ts_answer&) = {
     behave,       dawdle};
 constexpr int count = sizeof deeds / sizeof *deeds;
 
-const ts_parameter which = {"number of the deed", 1, count, count, 1, 0};
+// Usually the last but one, which answers at once.
+const ts_parameter which = {"number of the deed", 1, count, count - 1, 1, 0};
 
 int supports(void*, ts_shape_kind kind) { return kind != TS_BOX; }
 ts_prepared* prepare(void*, const ts_shape*, const ts_shape*, double, double parameter) {

@@ -15,13 +15,14 @@ import sys
 # for --count and --disturbances, which become small.
 SHORTER = {
     "report": {"--pair": "cylinder-plane", "--class": "lying", "--count": "1",
-               "--candidates": "reference,bullet"},
+               "--candidates": "reference,bullet", "--workers": "1"},
     "check": {"--law": "agreement", "--pair": "cylinder-plane", "--count": "1"},
     "campaign": {"--pair": "cylinder-plane", "--class": "lying", "--count": "1600",
                  "--candidates": "reference"},
     "stability": {"--part": "amplification", "--count": "1", "--candidates": "reference"},
     "simulate": {"--step": "0.016", "--candidates": "reference", "--duration": "0.1",
                  "--every": "1"},
+    "export": {"--count": "1"},
     "choose": {"--candidates": "capsule", "--disturbances": "1", "--duration": "0.1"},
 }
 REPLACED = {"--count", "--disturbances"}
@@ -38,7 +39,7 @@ def has_no_place(option, arguments):
     of_file = "--configurations" in arguments
     return {"--class": of_file or "--group" in arguments,  # which may have no such class
             "--pair": of_file,
-            "--count": of_file,
+            "--count": of_file or "--as" in arguments,
             "--candidates": any(a in arguments for a in ("--engine", "--povray", "--record")),
             "--law": "--search" in arguments,
             "--every": "--povray" not in arguments,

@@ -9,7 +9,7 @@ expect 2 '--pair.*cylinder-box' report --pair cylinder-cone
 expect 2 '--class' report --class nowhere --out "$folder/r"
 expect 2 '--out' report --out /proc/none
 for only in scores timing casts stability experiments; do
-  expect 0 '^1 configuration, ' report $lying --count 1 --candidates reference --only $only --out "$folder/only"
+  expect 0 '^1 configuration, ' report $lying --count 1 --candidates bullet --only $only --out "$folder/only"
   for part in '"ratio_to_bullet"' '"wrong_by_motion"' '"amplification"' '"experiments": {'; do
     case $only:$part in timing:*ratio* | casts:*wrong* | stability:*ampl* | experiments:*expe*) wanted=0 ;; *) wanted=1 ;; esac
     grep -q "$part" "$folder/only/report.json"

@@ -80,7 +80,7 @@ same seven-merged "seven shards in random order"
 cmp -s whole/shard-1-of-1.bin seven-merged/shard-1-of-1.bin || fail "another merged shard file"
 
 # Runs of many classes, the last one short: split among shards and ranks, and killed.
-few() { "$program" campaign --group everyday --candidates reference,bullet --count 40 "$@"; }
+few() { "$program" campaign --group everyday --candidates reference,bullet --count 12 "$@"; }
 few --out few >/dev/null 2>&1 || fail "few configurations of many classes"
 for shard in 1 2 3; do
   few --workers 2 --shard "$shard/3" --out few3 >/dev/null 2>&1 || fail "shard $shard/3 of few"
@@ -88,10 +88,10 @@ done
 "$program" campaign --merge few3 --out few3-merged >/dev/null || fail "merge of few"
 cmp -s few/campaign.json few3-merged/campaign.json || fail "another result: few in three shards"
 mpirun --oversubscribe -n 2 "$program" campaign --group everyday --candidates reference,bullet \
-  --count 40 --out few-mpi >/dev/null 2>&1 || fail "mpirun of few"
+  --count 12 --out few-mpi >/dev/null 2>&1 || fail "mpirun of few"
 cmp -s few/campaign.json few-mpi/campaign.json || fail "another result: few in two ranks"
 for pause in 0.1 0.2 0.3; do
-  "$program" campaign --group everyday --candidates reference,bullet --count 40 --out few-killed \
+  "$program" campaign --group everyday --candidates reference,bullet --count 12 --out few-killed \
     --workers 1 --checkpoint 0.01 --resume >/dev/null 2>&1 &
   sleep "$pause"
   kill -KILL $! 2>/dev/null

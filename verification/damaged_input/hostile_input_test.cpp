@@ -402,7 +402,7 @@ TEST(HostileInput, Meshes) {
   for (const auto& [ending, package] :
        {std::pair{".stl", "arm_description"}, {".dae", "arm_description"}, {".obj", "cart"}}) {
     expect_answer_or_refusal(
-        ending, 0.8, files_of(models / package / "meshes", ending),
+        ending, 0.4, files_of(models / package / "meshes", ending),
         [&](const std::string& text, std::uint64_t) {
           const std::string mesh = folder.with(std::string("mesh") + ending, text).string();
           simulate_robot(folder.with("robot.urdf",
