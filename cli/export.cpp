@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <functional>
 #include <memory>
 #include <unistd.h>
 
@@ -12,6 +13,7 @@
 #include "properties/named.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/idioms/idiom.hpp"
+#include "reports/test_data/suite_2_casts.hpp"
 #include "reports/test_data/test_data.hpp"
 
 namespace touchstone {
@@ -59,14 +61,10 @@ struct ExportArguments {
   }
 };
 
-/// Tests for an engine, in one piece.
-int run_export_tests(const ExportArguments& options) {
-  if (options.engine.empty()) {
-    throw InvalidInput("--engine", "missing", "must name the engine that is tested, as bullet");
-  }
+/// A text that is there in one piece.
+int run_export_text(const ExportArguments& options, const std::function<std::string()>& make) {
   if (options.out != "-") check_file_writable(options.out, "--out");
-  const std::string text = idiom_file({options.idiom, options.engine, options.sample.pairs(),
-                                       options.sample.seed(), options.limit});
+  const std::string text = make();
   if (options.out == "-") {
     print(text);
   } else {
@@ -75,9 +73,42 @@ int run_export_tests(const ExportArguments& options) {
   return 0;
 }
 
+/// Tests for an engine.
+int run_export_tests(const ExportArguments& options) {
+  if (options.engine.empty()) {
+    throw InvalidInput("--engine", "missing", "must name the engine that is tested, as bullet");
+  }
+  return run_export_text(options, [&] {
+    return idiom_file({options.idiom, options.engine, options.sample.pairs(), options.sample.seed(),
+                       options.limit});
+  });
+}
+
+constexpr std::string_view casts_file = "casts";
+
+std::vector<std::string_view> suite_2_names() {
+  std::vector<std::string_view> names;
+  for (const SuiteFile& file : suite_2_files()) names.push_back(file.name);
+  names.push_back(casts_file);
+  return names;
+}
+
+/// The casts of touchstone-suite-2.
+int run_export_casts(const ExportArguments& options) {
+  if (options.format() != TestDataFormat::csv) {
+    throw InvalidInput(options.format_name.empty() ? "--out" : "--format", "not CSV",
+                       "must be csv for --suite-2 casts");
+  }
+  return run_export_text(options, [] { return cast_csv(suite_2_casts()); });
+}
+
 /// A file is written as a whole or not at all, standard output as it comes.
 int run_export(const ExportArguments& options) {
   const Campaign campaign = options.campaign();
+  if (!options.suite_2.empty()) {
+    named(suite_2_names(), options.suite_2, "--suite-2", std::identity());
+    if (options.suite_2 == casts_file) return run_export_casts(options);
+  }
   const auto writer = test_data_writer(options.format(), options.columns());
   const bool streams = options.out == "-";
   if (streams && options.format() == TestDataFormat::npz && isatty(STDOUT_FILENO) != 0) {
@@ -127,7 +158,7 @@ void add_export(Program& program) {
   command.flag("--suite", options->suite,
                "touchstone-suite-1, as suite/ has it, by default as CSV");
   command.text("--suite-2", "NAME", options->suite_2,
-               "Likewise a file of touchstone-suite-2: smoke, everyday or hard");
+               "Likewise a file of touchstone-suite-2: smoke, everyday, hard or casts");
   const Option as = command.text(
       "--as", "IDIOM", options->idiom,
       fmt::format("Write a file of tests for an engine's project: {}", fmt::join(idioms(), ", ")));

@@ -1,15 +1,20 @@
 // Reads touchstone-suite-1 or -2 and judges answers: node judge.js [--float] SUITE.csv[.gz] ANSWERS.jsonl. See README.md.
 // Or from a program: for (const c of read('touchstone-suite-1.csv.gz')) verdict(c, answer), where an answer is
-// {status: 'contact', signed_distance, normal: [x, y, z], points: [{position, depth}, …]} or {status: 'none'}.
+// {status: 'contact', signed_distance, normal: [x, y, z], points: [{position, depth}, …]} or {status: 'none'}; to a
+// cast {status: 'touch', fraction, normal}, {status: 'from-start', normal} or {status: 'never'}.
 // SPDX-License-Identifier: CC0-1.0
 'use strict';
 const fs = require('fs'), zlib = require('zlib'), {abs, hypot, max, min} = Math;
 const rowCount = 5106;  // of touchstone-suite-1; other test data have further columns, suite-2's files a last line with it
-const columns = `id group radius_a half_length_a position_a_x position_a_y position_a_z orientation_a_w orientation_a_x
+const bodies = `id group radius_a half_length_a position_a_x position_a_y position_a_z orientation_a_w orientation_a_x
 orientation_a_y orientation_a_z shape_b size_b_1 size_b_2 size_b_3 size_b_4 position_b_x position_b_y position_b_z
-orientation_b_w orientation_b_x orientation_b_y orientation_b_z signed_distance signed_distance_error signed_distance_low
-signed_distance_high contact min_distance max_distance max_regret min_point_depth ties normal patch_kind`.split(/\s/);
-const texts = ['id', 'group', 'shape_b', 'contact', 'ties', 'normal', 'patch_kind'];
+orientation_b_w orientation_b_x orientation_b_y orientation_b_z `;
+const columns = (bodies + `signed_distance signed_distance_error signed_distance_low
+signed_distance_high contact min_distance max_distance max_regret min_point_depth ties normal patch_kind`).split(/\s/);
+const castColumns = (bodies + `sweep_x sweep_y sweep_z outcome fraction fraction_low fraction_high start_depth
+touch tolerance min_fraction max_fraction ties normal vertices_b
+float_touch float_tolerance float_min_fraction float_max_fraction about`).split(/\s/);
+const texts = 'id group shape_b contact ties normal patch_kind outcome touch float_touch vertices_b about'.split(' ');
 function textOf(file) {
   try {
     const bytes = fs.readFileSync(file);
@@ -19,10 +24,11 @@ function textOf(file) {
 function read(file) {  // throws an Error with the line and column of what is wrong
   const lines = textOf(file).trimEnd().split('\n').map((row, i) => ({line: i + 1, row: row.replace(/\r$/, '')}));
   const [header, ...rows] = lines.filter(({row}) => !row.startsWith('#')).map(({line, row}) => Object.assign(row.split(','), {line}));
-  if (columns.some((name, i) => header?.[i] !== name))
-    throw Error(`${file}:1: must be the columns of touchstone-suite-1, "id,group,…"; a packed file ends in .gz`);
+  const known = [columns, castColumns].find(names => names.every((name, i) => header?.[i] === name));
+  if (!known)
+    throw Error(`${file}:1: must be the columns of touchstone-suite-1 or -2, "id,group,…"; a packed file ends in .gz`);
   const value = (line, name, cell) => {
-    if (texts.includes(name) || !columns.includes(name)) return cell;
+    if (texts.includes(name) || !known.includes(name)) return cell;
     if (cell.trim() === '' || Number.isNaN(Number(cell))) throw Error(`${file}:${line}: ${name} is "${cell}": must be a number`);
     return Number(cell);
   };
@@ -31,7 +37,7 @@ function read(file) {  // throws an Error with the line and column of what is wr
       throw Error(`${file}:${row.line}: has ${row.length} cells: must have ${header.length}; the file is cut off or damaged`);
     return Object.fromEntries(row.map((cell, k) => [header[k], value(row.line, header[k], cell)]));
   });
-  if (header.length === columns.length && cases.length !== rowCount)
+  if (known === columns && header.length === columns.length && cases.length !== rowCount)
     throw Error(`${file}: has ${cases.length} configurations: must have ${rowCount}; the file is cut off`);
   const end = `# ${cases.length} configurations`;
   if (lines[0].row.startsWith('#') && lines.at(-1).row !== end)
@@ -39,6 +45,10 @@ function read(file) {  // throws an Error with the line and column of what is wr
   return cases;
 }
 function inFloat(c) {  // one of touchstone-suite-2, with the limits for a routine in single precision
+  if ('outcome' in c) {
+    const ofFloat = Object.entries(c).filter(([name]) => name.startsWith('float_'));
+    return {...c, ...Object.fromEntries(ofFloat.map(([name, x]) => [name.slice(6), x]))};
+  }
   const t = Number(c.float_tolerance), distance = c.signed_distance;
   return {...c, contact: distance < -t ? 'required' : distance > t ? 'forbidden' : 'optional',
     min_distance: distance - t, max_distance: distance + t, max_regret: t, min_point_depth: -t};
@@ -50,6 +60,9 @@ function readAnswers(file, cases) {  // cases by id; throws an Error with the li
   const point = p => isObject(p) && vector(p.position) && number(p.depth);
   const kinds = {signed_distance: [number, 'a number'], normal: [vector, '[x, y, z]'],
     points: [v => Array.isArray(v) && v.every(point), '[{"position": [x, y, z], "depth": d}, …]']};
+  const casts = [...cases.values()].some(c => 'outcome' in c), {normal} = kinds;
+  const kindsOf = casts ? {touch: {fraction: [number, 'a number'], normal}, 'from-start': {normal}} : {contact: kinds};
+  const statuses = casts ? '"touch", "from-start", "never"' : '"contact", "none"';
   const text = textOf(file).replace(/^\ufeff/, ''), answers = [];  // some editors write a byte order mark
   for (const [i, row] of text.split('\n').entries()) {
     const wrong = what => Error(`${file}:${i + 1}: ${what}`);
@@ -60,8 +73,8 @@ function readAnswers(file, cases) {  // cases by id; throws an Error with the li
     if (i === 0 && !('id' in answer) && 'candidate' in answer) continue;
     if (!('id' in answer)) throw wrong('id is missing: must be that of a configuration');
     if (!cases.has(answer.id)) throw wrong(`id is ${JSON.stringify(answer.id)}: must be that of a configuration of the suite`);
-    if (typeof answer.status !== 'string') throw wrong('status is missing: must be "contact", "none" or why there is no answer');
-    for (const [name, [isRight, rightForm]] of answer.status === 'contact' ? Object.entries(kinds) : []) {
+    if (typeof answer.status !== 'string') throw wrong(`status is missing: must be ${statuses} or why there is no answer`);
+    for (const [name, [isRight, rightForm]] of Object.entries(kindsOf[answer.status] ?? {})) {
       if (!(name in answer)) throw wrong(`${name} is missing: must be ${rightForm}`);
       if (!isRight(answer[name])) throw wrong(`${name} is not usable: must be ${rightForm}`);
     }
@@ -93,8 +106,23 @@ function gap(c, n) {  // g(n): clearance along the unit vector n
     box: dot([b1, b2, b3], b.map(abs))}[c.shape_b];
   return dot(d, n) - halfA - halfB;
 }
+const number = x => x === null ? NaN : Number(x);
+function castVerdict(c, answer) {
+  if (answer.status === 'never') return c.touch === 'required' ? 'missed' : 'agree';
+  if (!['touch', 'from-start'].includes(answer.status)) return answer.status;
+  const t = answer.status === 'touch' ? number(answer.fraction) : 0, n = answer.normal.map(number), length = hypot(...n);
+  if (![t, ...n].every(Number.isFinite)) return 'not-finite';
+  if (t < c.min_fraction || t > c.max_fraction)
+    return c.outcome === 'never' ? 'made-up' : t < c.min_fraction ? 'early' : 'late';
+  if (!(abs(length - 1) <= 1e-6)) return 'wrong-normal';
+  const there = {...c};
+  for (const e of 'xyz') there[`position_a_${e}`] += t * c[`sweep_${e}`];
+  const least = -max(c.start_depth, c.tolerance) - c.tolerance;
+  return gap(there, n.map(x => x / length)) < least ? 'wrong-normal' : 'agree';
+}
 function verdict(c, answer) {
-  const number = x => x === null ? NaN : Number(x), required = c.contact === 'required';
+  if ('outcome' in c) return castVerdict(c, answer);
+  const required = c.contact === 'required';
   if (answer.status === 'none') return required ? 'missed' : 'agree';
   if (answer.status !== 'contact') return answer.status;
   const distance = number(answer.signed_distance), n = answer.normal.map(number), length = hypot(...n);
@@ -110,7 +138,9 @@ function verdict(c, answer) {
   if (max(...depths) > -c.min_distance) return 'overdeep-points';
   return min(...depths) < c.min_point_depth ? 'phantom-points' : 'agree';
 }
-const right = c => `contact ${c.contact}, signed distance ${c.min_distance} to ${c.max_distance}, normal ${c.normal}`;
+const right = c => c.touch === 'forbidden' ? 'touch forbidden' :
+  'outcome' in c ? `touch ${c.touch}, fraction ${c.min_fraction} to ${c.max_fraction}, normal ${c.normal}` :
+  `contact ${c.contact}, signed distance ${c.min_distance} to ${c.max_distance}, normal ${c.normal}`;
 module.exports = {read, inFloat, gap, verdict, right};
 if (require.main === module) {
   const fail = message => { console.error(message); process.exit(2); };

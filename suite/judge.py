@@ -2,17 +2,22 @@
 
 Or from Python: for case in read("touchstone-suite-1.csv.gz"): verdict(case, answer), where an answer
 is {"status": "contact", "signed_distance": d, "normal": [x, y, z], "points": [{"position": …,
-"depth": …}, …]} or {"status": "none"}. README.md has the format.
+"depth": …}, …]} or {"status": "none"}; to a cast {"status": "touch", "fraction": t, "normal": [x, y, z]},
+{"status": "from-start", "normal": [x, y, z]} or {"status": "never"}. README.md has the format.
 SPDX-License-Identifier: CC0-1.0"""
 import gzip, json, sys
 from math import hypot, isfinite, nan
 from zlib import error as ZlibError
 ROW_COUNT = 5106  # of touchstone-suite-1; other test data have further columns, suite-2's files a last line with it
-COLUMNS = """id group radius_a half_length_a position_a_x position_a_y position_a_z orientation_a_w orientation_a_x
+BODIES = """id group radius_a half_length_a position_a_x position_a_y position_a_z orientation_a_w orientation_a_x
 orientation_a_y orientation_a_z shape_b size_b_1 size_b_2 size_b_3 size_b_4 position_b_x position_b_y position_b_z
-orientation_b_w orientation_b_x orientation_b_y orientation_b_z signed_distance signed_distance_error signed_distance_low
-signed_distance_high contact min_distance max_distance max_regret min_point_depth ties normal patch_kind""".split()
-TEXTS = ("id", "group", "shape_b", "contact", "ties", "normal", "patch_kind")
+orientation_b_w orientation_b_x orientation_b_y orientation_b_z """
+COLUMNS = (BODIES + """signed_distance signed_distance_error signed_distance_low
+signed_distance_high contact min_distance max_distance max_regret min_point_depth ties normal patch_kind""").split()
+CAST_COLUMNS = (BODIES + """sweep_x sweep_y sweep_z outcome fraction fraction_low fraction_high start_depth
+touch tolerance min_fraction max_fraction ties normal vertices_b
+float_touch float_tolerance float_min_fraction float_max_fraction about""").split()
+TEXTS = "id group shape_b contact ties normal patch_kind outcome touch float_touch vertices_b about".split()
 def text_of(file):
     try:
         with (gzip.open if str(file).endswith(".gz") else open)(file, "rb") as stream: return stream.read().decode()
@@ -21,10 +26,11 @@ def read(file):  # raises ValueError with the line and column of what is wrong
     lines = [(line, row.rstrip("\r")) for line, row in enumerate(text_of(file).rstrip().split("\n"), 1)]
     header, *rows = [row.split(",") for _, row in lines if not row.startswith("#")] or [[]]
     numbers_of_lines = [line for line, row in lines if not row.startswith("#")][1:]
-    if header[:len(COLUMNS)] != COLUMNS:
-        raise ValueError(f'{file}:1: must be the columns of touchstone-suite-1, "id,group,…"; a packed file ends in .gz')
+    known = CAST_COLUMNS if header == CAST_COLUMNS else COLUMNS
+    if header[:len(known)] != known:
+        raise ValueError(f'{file}:1: must be the columns of touchstone-suite-1 or -2, "id,group,…"; a packed file ends in .gz')
     def value(line, name, cell):
-        try: return cell if name in TEXTS or name not in COLUMNS else float(cell)
+        try: return cell if name in TEXTS or name not in known else float(cell)
         except ValueError: raise ValueError(f'{file}:{line}: {name} is "{cell}": must be a number')
     for line, row in zip(numbers_of_lines, rows):
         if len(row) != len(header):
@@ -35,6 +41,7 @@ def read(file):  # raises ValueError with the line and column of what is wrong
     if lines[0][1].startswith("#") and lines[-1][1] != f"# {len(rows)} configurations":
         raise ValueError(f'{file}:{lines[-1][0]}: must be "# {len(rows)} configurations"; the file is cut off')
 def in_float(case):  # one of touchstone-suite-2, with the limits for a routine in single precision
+    if "outcome" in case: return {**case, **{name[6:]: x for name, x in case.items() if name.startswith("float_")}}
     true, t = case["signed_distance"], float(case["float_tolerance"])
     return {**case, "contact": "required" if true < -t else "forbidden" if true > t else "optional",
             "min_distance": true - t, "max_distance": true + t, "max_regret": t, "min_point_depth": -t}
@@ -44,6 +51,10 @@ def read_answers(file, cases):  # by id; raises ValueError with the line and fie
     point = lambda p: isinstance(p, dict) and vector(p.get("position")) and number(p.get("depth", []))
     kinds = {"signed_distance": (number, "a number"), "normal": (vector, "[x, y, z]"),
              "points": (lambda v: isinstance(v, list) and all(map(point, v)), '[{"position": [x, y, z], "depth": d}, …]')}
+    casts = any("outcome" in case for case in cases.values())
+    turned = {"normal": kinds["normal"]}
+    kinds_of = {"touch": {"fraction": (number, "a number"), **turned}, "from-start": turned} if casts else {"contact": kinds}
+    statuses = '"touch", "from-start", "never"' if casts else '"contact", "none"'
     text = text_of(file).removeprefix("\ufeff")  # a byte order mark, which some editors write
     answers = []
     for line, row in enumerate(text.split("\n"), 1):
@@ -55,8 +66,8 @@ def read_answers(file, cases):  # by id; raises ValueError with the line and fie
         if line == 1 and "id" not in answer and "candidate" in answer: continue
         if "id" not in answer: raise wrong("id is missing: must be that of a configuration")
         if not isinstance(answer["id"], str) or answer["id"] not in cases: raise wrong(f'id is {json.dumps(answer["id"])}: must be that of a configuration of the suite')
-        if not isinstance(answer.get("status"), str): raise wrong('status is missing: must be "contact", "none" or why there is no answer')
-        for name, (is_right, right_form) in kinds.items() if answer["status"] == "contact" else ():
+        if not isinstance(answer.get("status"), str): raise wrong(f"status is missing: must be {statuses} or why there is no answer")
+        for name, (is_right, right_form) in kinds_of.get(answer["status"], {}).items():
             if name not in answer: raise wrong(f"{name} is missing: must be {right_form}")
             if not is_right(answer[name]): raise wrong(f"{name} is not usable: must be {right_form}")
         answers.append(answer)
@@ -86,8 +97,21 @@ def gap(case, n):  # g(n): clearance along the unit vector n
               "cylinder": size[1] * abs(b[2]) + size[0] * hypot(b[0], b[1])}[shape]
     return dot(d, n) - half_a - half_b
 
+def number(x): return nan if x is None else float(x)
+def cast_verdict(case, answer):
+    if answer["status"] == "never": return "missed" if case["touch"] == "required" else "agree"
+    if answer["status"] not in ("touch", "from-start"): return answer["status"]
+    t, n = number(answer["fraction"]) if answer["status"] == "touch" else 0, [number(x) for x in answer["normal"]]
+    if not all(map(isfinite, [t, *n])): return "not-finite"
+    if not case["min_fraction"] <= t <= case["max_fraction"]:
+        return "made-up" if case["outcome"] == "never" else "early" if t < case["min_fraction"] else "late"
+    if abs(hypot(*n) - 1) > 1e-6: return "wrong-normal"
+    there = {**case, **{f"position_a_{e}": case[f"position_a_{e}"] + t * case[f"sweep_{e}"] for e in "xyz"}}
+    least = -max(case["start_depth"], case["tolerance"]) - case["tolerance"]
+    return "wrong-normal" if gap(there, [x / hypot(*n) for x in n]) < least else "agree"
 def verdict(case, answer):
-    number, required = lambda x: nan if x is None else float(x), case["contact"] == "required"
+    if "outcome" in case: return cast_verdict(case, answer)
+    required = case["contact"] == "required"
     if answer["status"] == "none": return "missed" if required else "agree"
     if answer["status"] != "contact": return answer["status"]
     n, distance, points = [number(x) for x in answer["normal"]], number(answer["signed_distance"]), answer["points"]
@@ -103,6 +127,8 @@ def verdict(case, answer):
     if max(depths) > -case["min_distance"]: return "overdeep-points"
     return "phantom-points" if min(depths) < case["min_point_depth"] else "agree"
 def right(case):
+    if case.get("touch") == "forbidden": return "touch forbidden"
+    if "outcome" in case: return "touch {touch}, fraction {min_fraction} to {max_fraction}, normal {normal}".format(**case)
     return "contact {contact}, signed distance {min_distance} to {max_distance}, normal {normal}".format(**case)
 
 if __name__ == "__main__":

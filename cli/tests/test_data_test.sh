@@ -11,6 +11,9 @@ expect 0 '"id":"cylinder-plane/lying/1/1"' export $lying --count 2
 expect 2 '--out is ".*/truth.txt": must end in .jsonl, .csv or .npz' export --out "$folder/truth.txt"
 expect 2 '--format is "xml": must be one of' export --format xml
 expect 2 '--suite' export --suite --count 3
+expect 2 '--suite-2 is "all": must be one of smoke, everyday, hard, casts' export --suite-2 all
+expect 2 '--format is .*: must be csv for --suite-2 casts' export --suite-2 casts --format npz
+expect 0 '^cylinder-capsule/jolt-2103,degenerate,' export --suite-2 casts
 expect 0 '^TEST_F(CylinderPlane, Lying)' export --as gtest --engine bullet --pair cylinder-plane
 expect 0 'TEST_CASE("TestCollideCylinderVsSphereRim" \* doctest::should_fail())' export --as doctest --engine jolt --pair cylinder-sphere
 also '^		CHECK(collector.HadHit());'  # Jolt's doctest has no REQUIRE: its exceptions are off

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <variant>
 
 #include "properties/numbers.hpp"
@@ -53,10 +54,25 @@ void touch(Configuration& c) {
   c.pose_a = Pose(c.pose_a.position() + by, c.pose_a.orientation());
 }
 
+Configuration in_floats(const Configuration& c) {
+  Numbers numbers = numbers_of(c);
+  for (double* const x : every_number(numbers)) *x = static_cast<float>(*x);
+  return configuration_of(numbers);
+}
+
+bool is_in_floats(const Configuration& c) {
+  Numbers numbers = numbers_of(c);
+  const auto all = every_number(numbers);
+  return std::all_of(all.begin(), all.end(), [](const double* x) {
+    return static_cast<double>(static_cast<float>(*x)) == *x &&
+           (*x == 0 || std::abs(*x) >= std::numeric_limits<float>::min());
+  });
+}
+
 double moved_by_rounding(const Configuration& c) {
   const auto* const plane = std::get_if<Plane>(&c.b);
   const double sizes = 2 * larger_size(c) + (plane ? std::abs(plane->unit_displacement()) : 0);
-  return 0x1p-22 * (sizes + c.pose_a.position().norm() + c.pose_b.position().norm());
+  return float_rounding * (sizes + c.pose_a.position().norm() + c.pose_b.position().norm());
 }
 
 }  // namespace touchstone

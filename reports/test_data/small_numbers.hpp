@@ -36,8 +36,15 @@ Configuration on_grid(const Configuration& configuration, bool in_frame_of_b, in
 /// Moves A by the signed distance: exactly, where the normal lies along an axis of the world.
 void touch(Configuration& configuration);
 
-/// Of the numbers of both bodies as floats: how far rounding moves their surfaces, metres. A number
-/// is rounded by 2^-24 of it; an orientation turns by no more than 2^-22 then.
+/// All numbers rounded to floats; hulls are made anew.
+Configuration in_floats(const Configuration& configuration);
+/// Is each number one that floats have, not below the smallest normal one?
+bool is_in_floats(const Configuration& configuration);
+
+/// How far rounding to floats moves a body's surface, of sizes and distances. A number is rounded
+/// by 2^-24 of it; an orientation turns by no more than 2^-22 then.
+inline constexpr double float_rounding = 0x1p-22;
+/// Of the numbers of both bodies as floats: how far rounding moves their surfaces, metres.
 double moved_by_rounding(const Configuration& configuration);
 
 }  // namespace touchstone

@@ -1,11 +1,8 @@
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <numeric>
 #include <optional>
 #include <set>
 
-#include "properties/numbers.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/test_data/small_numbers.hpp"
 #include "reports/test_data/test_data.hpp"
@@ -15,22 +12,6 @@ namespace {
 
 /// Draws of all classes of a pair, after which none is expected that has not been found before.
 constexpr std::uint64_t most_draws = 100;
-
-Configuration in_floats(const Configuration& c) {
-  Numbers numbers = numbers_of(c);
-  for (double* const x : every_number(numbers)) *x = static_cast<float>(*x);
-  return configuration_of(numbers);
-}
-
-/// Is each number one that floats have, not below the smallest normal one?
-bool is_in_floats(const Configuration& c) {
-  Numbers numbers = numbers_of(c);
-  const auto all = every_number(numbers);
-  return std::all_of(all.begin(), all.end(), [](const double* x) {
-    return static_cast<double>(static_cast<float>(*x)) == *x &&
-           (*x == 0 || std::abs(*x) >= std::numeric_limits<float>::min());
-  });
-}
 
 /// The bits below the smaller size that are tried in turns; without any, all that a float has.
 std::vector<std::optional<int>> precisions(const SuiteFile& file) {

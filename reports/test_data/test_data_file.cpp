@@ -16,11 +16,13 @@
 
 #include <nlohmann/json.hpp>
 
+#include "oracle/judge/cast_score.hpp"
 #include "oracle/patch/contact_patch.hpp"
 #include "properties/files/answer_json.hpp"
 #include "properties/files/configuration_json.hpp"
 #include "reference/invalid_input.hpp"
 #include "reports/test_data/small_numbers.hpp"
+#include "reports/test_data/suite_2_casts.hpp"
 #include "reports/test_data/test_data.hpp"
 
 namespace touchstone {
@@ -151,21 +153,49 @@ void put_patches(const TestDatum& d, CsvColumns columns, Fields& fields) {
   fields.vectors("patch_centroid", 3, centroids);
 }
 
+/// Both bodies and their poses, which every file begins with.
+template <class Fields>
+void put_bodies(const std::string& id, Group group, const Configuration& c, Fields& fields) {
+  fields.text("id", id);
+  fields.text("group", group_name(group));
+  fields.numbers("radius_a", "", {c.a.radius()});
+  fields.numbers("half_length_a", "", {c.a.half_length()});
+  put_pose("a", c.pose_a, fields);
+  fields.text("shape_b", shape_of_b(pair_of(c)));
+  const auto sizes = std::visit(SizesOfB{}, c.b);
+  fields.numbers("size_b", "1234", {sizes.begin(), sizes.end()});
+  put_pose("b", c.pose_b, fields);
+}
+
+template <class Fields>
+void put_normals(const oracle::Truth& truth, Fields& fields) {
+  fields.text("ties", ties_name(truth.ties));
+  fields.lists_of(truth.normals.size());
+  std::vector<double> normals;
+  for (const auto& normal : truth.normals) append(normals, normal.n);
+  for (double& x : normals) {
+    if (std::abs(x) < negligible_component) x = 0;
+  }
+  fields.vectors("normal", 3, normals);
+}
+
+std::string vertices_of_b(const Configuration& c) {
+  std::vector<std::string> vertices;
+  if (const auto* const convex = std::get_if<Convex>(&c.b)) {
+    for (const Vec3& v : convex->vertices()) {
+      vertices.push_back(fmt::format("{} {} {}", v.x(), v.y(), v.z()));
+    }
+  }
+  return vertices.empty() ? "none" : fmt::format("{}", fmt::join(vertices, ";"));
+}
+
 /// Hands over the columns of CSV and the arrays of NumPy in their order: a text, numbers with a
 /// letter for each (none for a single one), then lists with as many members as there are normals.
 template <class Fields>
 void put_fields(const TestDatum& d, CsvColumns columns, Fields& fields) {
   const Configuration& c = d.configuration;
   const auto number = [&](const char* name, double value) { fields.numbers(name, "", {value}); };
-  fields.text("id", to_string(d.identity));
-  fields.text("group", group_name(d.identity.pose_class.group()));
-  number("radius_a", c.a.radius());
-  number("half_length_a", c.a.half_length());
-  put_pose("a", c.pose_a, fields);
-  fields.text("shape_b", shape_of_b(d.identity.pose_class.pair));
-  const auto sizes = std::visit(SizesOfB{}, c.b);
-  fields.numbers("size_b", "1234", {sizes.begin(), sizes.end()});
-  put_pose("b", c.pose_b, fields);
+  put_bodies(to_string(d.identity), d.identity.pose_class.group(), c, fields);
   number("signed_distance", d.truth.signed_distance.midpoint());
   number("signed_distance_error", midpoint_error(d.truth.signed_distance));
   const auto [low, high] = decimals(d.truth.signed_distance);
@@ -176,24 +206,10 @@ void put_fields(const TestDatum& d, CsvColumns columns, Fields& fields) {
   number("max_distance", d.limits.max_distance);
   number("max_regret", d.limits.max_regret);
   number("min_point_depth", d.limits.min_point_depth);
-  fields.text("ties", ties_name(d.truth.ties));
-  fields.lists_of(d.truth.normals.size());
-  std::vector<double> normals;
-  for (const auto& normal : d.truth.normals) append(normals, normal.n);
-  for (double& x : normals) {
-    if (std::abs(x) < negligible_component) x = 0;
-  }
-  fields.vectors("normal", 3, normals);
+  put_normals(d.truth, fields);
   put_patches(d, columns, fields);
   if (columns != CsvColumns::suite_2) return;
-  std::vector<std::string> vertices;
-  if (const auto* const convex = std::get_if<Convex>(&c.b)) {
-    for (const Vec3& v : convex->vertices()) {
-      vertices.push_back(fmt::format("{} {} {}", v.x(), v.y(), v.z()));
-    }
-  }
-  fields.text("vertices_b",
-              vertices.empty() ? "none" : fmt::format("{}", fmt::join(vertices, ";")));
+  fields.text("vertices_b", vertices_of_b(c));
   number("float_tolerance", d.limits.max_regret + moved_by_rounding(c));
   std::string sentence = d.identity.pose_class.description();
   std::replace(sentence.begin(), sentence.end(), ',', ';');  // no cell needs quotes
@@ -234,30 +250,76 @@ class CsvRow {
   std::string header_, row_;
 };
 
-class CsvWriter : public TestDataWriter {
+/// Rows beneath their header. A file of touchstone-suite-2 begins with its licence and ends with
+/// how many they are, so that readers know one that is cut off.
+class CsvFile {
  public:
-  explicit CsvWriter(CsvColumns columns) : columns_(columns) {}
-  std::string add(const TestDatum& d) override {
-    CsvRow row;
-    put_fields(d, columns_, row);
-    std::string header = has_header_ ? "" : row.header() + '\n';
-    if (!has_header_ && columns_ == CsvColumns::suite_2) {
-      header = "# SPDX-License-Identifier: CC0-1.0\n" + header;
+  explicit CsvFile(bool is_suite_2) : is_suite_2_(is_suite_2) {}
+  std::string add(const CsvRow& row) {
+    std::string text;
+    if (count_++ == 0) {
+      if (is_suite_2_) text = "# SPDX-License-Identifier: CC0-1.0\n";
+      text += row.header() + '\n';
     }
-    has_header_ = true;
-    ++count_;
-    return header + row.row() + '\n';
+    return text + row.row() + '\n';
   }
-  /// A file of the second suite says how many they are, so that readers know one that is cut off.
-  std::string finish() override {
-    return columns_ == CsvColumns::suite_2 ? fmt::format("# {} configurations\n", count_) : "";
+  std::string finish() const {
+    return is_suite_2_ ? fmt::format("# {} configurations\n", count_) : "";
   }
 
  private:
-  CsvColumns columns_;
-  bool has_header_ = false;
+  bool is_suite_2_;
   int count_ = 0;
 };
+
+class CsvWriter : public TestDataWriter {
+ public:
+  explicit CsvWriter(CsvColumns columns)
+      : columns_(columns), file_(columns == CsvColumns::suite_2) {}
+  std::string add(const TestDatum& d) override {
+    CsvRow row;
+    put_fields(d, columns_, row);
+    return file_.add(row);
+  }
+  std::string finish() override { return file_.finish(); }
+
+ private:
+  CsvColumns columns_;
+  CsvFile file_;
+};
+
+void put_limits(const std::string& prefix, const CastLimits& limits, CsvRow& row) {
+  row.text(prefix + "touch", contact_name(limits.touch));
+  row.numbers(prefix + "tolerance", "", {limits.tolerance});
+  row.numbers(prefix + "min_fraction", "", {limits.min_fraction});
+  row.numbers(prefix + "max_fraction", "", {limits.max_fraction});
+}
+
+CsvRow row_of(const CastDatum& d) {
+  const auto& [configuration, sweep] = d.cast;
+  const auto& [status, fraction, there] = d.truth;
+  CsvRow row;
+  put_bodies(d.id, d.group, configuration, row);
+  row.numbers("sweep", "xyz", {sweep.x(), sweep.y(), sweep.z()});
+  row.text("outcome", status_name(status));
+  row.numbers("fraction", "", {fraction.hi.get_d()});
+  const auto [low, high] = decimals(fraction);
+  row.text("fraction_low", low);
+  row.text("fraction_high", high);
+  const bool is_inside = status == oracle::FirstTouch::Status::from_start;
+  row.numbers("start_depth", "", {is_inside ? -there->signed_distance.midpoint() + 0.0 : 0.0});
+  put_limits("", d.limits, row);
+  if (there) {
+    put_normals(*there, row);
+  } else {
+    row.text("ties", "none");
+    row.text("normal", "none");
+  }
+  row.text("vertices_b", vertices_of_b(configuration));
+  put_limits("float_", d.float_limits, row);
+  row.text("about", d.about);
+  return row;
+}
 
 /// NumPy's file of named arrays, which numpy.load reads: an archive in the ZIP format, not
 /// compressed, of .npy files (numpy.lib.format, version 1.0; PKWARE's APPNOTE, 4.3). Its arrays
@@ -358,6 +420,13 @@ class NumPyWriter : public TestDataWriter {
 };
 
 }  // namespace
+
+std::string cast_csv(const std::vector<CastDatum>& casts) {
+  CsvFile file(true);
+  std::string text;
+  for (const CastDatum& cast : casts) text += file.add(row_of(cast));
+  return text + file.finish();
+}
 
 TestDataFormat parse_test_data_format(std::string_view name, const char* field) {
   if (name == "jsonl") return TestDataFormat::json_lines;
