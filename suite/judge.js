@@ -141,7 +141,7 @@ function verdict(c, answer) {
 const right = c => c.touch === 'forbidden' ? 'touch forbidden' :
   'outcome' in c ? `touch ${c.touch}, fraction ${c.min_fraction} to ${c.max_fraction}, normal ${c.normal}` :
   `contact ${c.contact}, signed distance ${c.min_distance} to ${c.max_distance}, normal ${c.normal}`;
-module.exports = {read, inFloat, gap, verdict, right};
+module.exports = {read, readAnswers, inFloat, gap, verdict, right};
 if (require.main === module) {
   const fail = message => { console.error(message); process.exit(2); };
   const words = process.argv.slice(2), single = words.includes('--float'), files = words.filter(word => word !== '--float');

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sstream>
@@ -9,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "properties/files/own_folder_test.hpp"
+#include "properties/named.hpp"
 
 // What the tests of the suites do with files and with the readers that are programs.
 
@@ -23,6 +26,23 @@ inline std::string suite_file(const std::string& name) {
 /// The text of suite_file(name).
 inline std::string unpacked(const std::string& name) {
   return printed_by("gzip -dc " + suite_file(name));
+}
+
+/// The cells of one column, which has to be there.
+inline std::vector<std::string> column(const std::string& csv, const std::string& name) {
+  std::vector<std::string> cells;
+  std::istringstream in(csv);
+  std::size_t place = std::string::npos;
+  for (std::string line; std::getline(in, line);) {
+    if (line.starts_with('#')) continue;
+    const auto row = split(line, ',');
+    if (place == std::string::npos) {
+      place = static_cast<std::size_t>(std::ranges::find(row, name) - row.begin());
+    } else {
+      cells.emplace_back(row.at(place));
+    }
+  }
+  return cells;
 }
 
 /// JSON has no number for what is not finite.
