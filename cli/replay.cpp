@@ -24,16 +24,22 @@ struct ReplayArguments {
   std::uint64_t cells = 4000;
 };
 
+/// Of a cast. Throws InvalidInput if A turns, too.
+std::optional<Vec3> translation_of(const Subject& given, const std::string& asked) {
+  if (!given.sweep) return std::nullopt;
+  if (given.sweep->turns()) {
+    throw InvalidInput("spin", "given", "must be left out: " + asked + " knows no turns");
+  }
+  return given.sweep->translation();
+}
+
 std::string certificate_of(const Subject& given, const ReplayArguments& options) {
   const Configuration& c = given.configuration;
   if (!given.sweep) {
     const audit::Budget budget{options.width, static_cast<int>(options.cells)};
     return certificate_json(audit::certify(c, budget), c);
   }
-  if (given.sweep->turns()) {
-    throw InvalidInput("spin", "given", "must be left out: --certify knows no turns");
-  }
-  const Vec3& sweep = given.sweep->translation();
+  const Vec3 sweep = *translation_of(given, "--certify");
   return certificate_json(audit::certify_cast(c, sweep), c, sweep);
 }
 
@@ -46,10 +52,9 @@ int run_replay(const ReplayArguments& options, bool emits) {
     return 0;
   }
   if (emits) {
-    refuse_sweep(given, "--emit");
     const std::string asked = given.name + (given.id.empty() ? "" : ", id " + given.id);
-    print(reproducer(options.engine, options.language, given.configuration, asked, bar,
-                     options.candidates.limits()));
+    print(reproducer(options.engine, options.language, given.configuration,
+                     translation_of(given, "--emit"), asked, bar, options.candidates.limits()));
     return 0;
   }
   refuse_to_replace(options.input, options.html, "--html");

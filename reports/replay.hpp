@@ -57,18 +57,19 @@ std::vector<std::string> reproducer_engines();
 
 /// A program that asks this engine alone, called as the candidate of that name is (libccd as
 /// libccd-gjk), and needs nothing of ours; for the name of any other candidate one that asks its
-/// plug-in or command once. It prints the answer and what is true, with a proof, and exits with 1
-/// while the answer does not agree within the bar. Its comment says how to run it, and what the
-/// candidate answered here and now. `asked` names the configuration there.
+/// plug-in or command once. With a sweep (metres, world) it asks for that cast. It prints the
+/// answer and what is true, with a proof, and exits with 1 while the answer does not agree within
+/// the bar. Its comment says how to run it, and what the candidate answered here and now. `asked`
+/// names the configuration there.
 ///
 /// `language`: "c++", "javascript" or "python", of those that there are for the engine; empty for
 /// the usual one. Jolt's in C++ is a test case for its own unit tests, which looks at no points.
 ///
-/// Throws InvalidInput (field "--emit") for an engine that is not known or has no routine for the
-/// pair, and (field "--language") for another language.
+/// Throws InvalidInput (field "--emit") for an engine that is not known, has no routine for the
+/// pair, or no program for casts, and (field "--language") for another language.
 std::string reproducer(std::string_view engine, std::string_view language,
-                       const Configuration& configuration, const std::string& asked, const Bar& bar,
-                       const Limits& limits = {});
+                       const Configuration& configuration, const std::optional<Vec3>& sweep,
+                       const std::string& asked, const Bar& bar, const Limits& limits = {});
 
 // Commands that a person would repeat.
 

@@ -83,7 +83,11 @@ also '^ *agree  *touch  *0.3333' '"sweep":\[0.0,0.0,-9.0\]'
 expect 0 '"cast":{"answers":{"reference":{"fraction":0.3333' replay "$folder/cast.jsonl" --json --candidates reference
 echo "$printed" >"$folder/saved_cast.json"
 expect 0 'cast: A touches B first when it has gone 0.3333' replay "$folder/saved_cast.json" --candidates reference
-expect 2 '^error: sweep is \[0.0,0.0,-9.0\]: must be left out: --emit knows no casts' replay "$folder/cast.jsonl" --emit bullet
+expect 0 '^// True     A touches B first when it has gone 0.3333' replay "$folder/cast.jsonl" --emit bullet
+also 'btCollisionWorld::objectQuerySingle(' '^// Seen     Bullet .*: agree, touch at 0.3333'
+expect 2 '^error: --emit is "ode": must be one of bullet, .*jolt.*, whose programs know casts of cylinder-sphere$' \
+  replay "$folder/cast.jsonl" --emit ode
+expect 2 '^error: spin is given: must be left out: --emit knows no turns' replay <(sed 's/"sweep"/"spin":[1,0,0],&/' "$folder/cast.jsonl") --emit bullet
 expect 0 '"schema":"touchstone-cast-certificate-1"' replay "$folder/cast.jsonl" --certify
 expect 2 '^error: spin is given: must be left out: --certify knows no turns' replay <(sed 's/"sweep"/"spin":[1,0,0],&/' "$folder/cast.jsonl") --certify
 expect 2 '^error: sweep is of bodies that touch or overlap: must start' replay <(sed 's/0,0,5/0,0,1/' "$folder/cast.jsonl") --certify

@@ -32,22 +32,24 @@ double DistanceInTime::at(double t) const {
       .signed_distance.midpoint();
 }
 
-double DistanceInTime::smallest(double first, double last) const {
+DistanceInTime::Moment DistanceInTime::nearest(double first, double last) const {
   constexpr double golden = 0.6180339887498949;  // golden section
   constexpr int steps = 30;
-  double best = std::min(at(first), at(last));
-  double left = last - golden * (last - first), right = first + golden * (last - first);
-  double at_left = at(left), at_right = at(right);
+  const auto moment = [&](double t) { return Moment{t, at(t)}; };
+  const auto lower = [](const Moment& one, const Moment& other) {
+    return other.distance < one.distance ? other : one;
+  };
+  Moment best = lower(moment(first), moment(last));
+  Moment left = moment(last - golden * (last - first));
+  Moment right = moment(first + golden * (last - first));
   for (int i = 0; i < steps; ++i) {
-    best = std::min({best, at_left, at_right});
-    if (at_left < at_right) {
-      last = right, right = left, at_right = at_left;
-      left = last - golden * (last - first);
-      at_left = at(left);
+    best = lower(best, lower(left, right));
+    if (left.distance < right.distance) {
+      last = right.t, right = left;
+      left = moment(last - golden * (last - first));
     } else {
-      first = left, left = right, at_left = at_right;
-      right = first + golden * (last - first);
-      at_right = at(right);
+      first = left.t, left = right;
+      right = moment(first + golden * (last - first));
     }
   }
   return best;
@@ -80,7 +82,7 @@ CastScore score_cast(const Configuration& c, const Sweep& sweep, const oracle::F
   CastScore score;
   if (answer.status == CastStatus::never) {
     if (!touches) return score;
-    score.distance = std::min(0.0, distance.smallest(first, 1)) / size;
+    score.distance = std::min(0.0, distance.nearest(first, 1).distance) / size;
     if (*score.distance < -bar.tolerance) score.outcome = CastOutcome::missed;
     return score;
   }
@@ -96,7 +98,7 @@ CastScore score_cast(const Configuration& c, const Sweep& sweep, const oracle::F
   const double farthest = std::hypot(c.a.radius(), c.a.half_length());
   const double speed = sweep.translation().stableNorm() + sweep.spin().stableNorm() * farthest;
   if (touches && (t - first) * speed > bar.tolerance * size) {
-    score.distance = std::min(*score.distance, distance.smallest(first, t) / size);
+    score.distance = std::min(*score.distance, distance.nearest(first, t).distance / size);
     if (*score.distance < -bar.tolerance) {
       score.outcome = CastOutcome::late;
       return score;

@@ -21,9 +21,12 @@ class DistanceInTime {
   DistanceInTime(const Configuration&, Sweep&&) = delete;
 
   double at(double t) const;
-  /// The smallest within [first, last], by a search that takes it for convex, as it is unless A
-  /// turns.
-  double smallest(double first, double last) const;
+  struct Moment {
+    double t, distance;
+  };
+  /// When it is smallest within [first, last], by a search that takes it for convex, as it is
+  /// unless A turns.
+  Moment nearest(double first, double last) const;
 
  private:
   const Configuration& c_;

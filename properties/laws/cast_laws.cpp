@@ -92,7 +92,7 @@ std::optional<Violation> judge_stops(const CastQuestion& q, Stop one, Stop other
   const Sweep sweep(q.sweep);
   const DistanceInTime distance(q.configuration, sweep);
   const double start = distance.at(earlier.t), end = distance.at(later.t);
-  double change = start - distance.smallest(earlier.t, later.t);
+  double change = start - distance.nearest(earlier.t, later.t).distance;
   if (later.touches) change = std::max(change, std::abs(start - end));
   if (change <= tolerance) return std::nullopt;
   return violated("not-invariant", change, q, bar,

@@ -558,7 +558,7 @@ void expect_true_of(const Engine& engine, std::size_t count) {
   {
     const WithoutPackages none;
     for (const Wrong& w : wrong) {
-      heads.push_back(reproducer(engine.name, engine.language, w.configuration, w.id, w.bar));
+      heads.push_back(reproducer(engine.name, engine.language, w.configuration, {}, w.id, w.bar));
       programs.push_back(planted(heads.back(), w, engine.language));
     }
   }

@@ -25,40 +25,43 @@ const Language python = {"python", "#", python_template, NumberStyle::decimal};
 
 std::span<const Program> programs() {
   static const std::array all = {
-      Program{"bullet", "bullet", "Bullet", cpp, bullet_template, "double,rounded"},
-      Program{"bullet-margin-0", "bullet-margin-0", "Bullet", cpp, bullet_template, "double,sharp"},
-      Program{"bullet-float", "bullet-float", "Bullet", cpp, bullet_template, "float,rounded"},
+      Program{"bullet", "bullet", "Bullet", cpp, bullet_template, "double,rounded,casts"},
+      Program{"bullet-margin-0", "bullet-margin-0", "Bullet", cpp, bullet_template,
+              "double,sharp,casts"},
+      Program{"bullet-float", "bullet-float", "Bullet", cpp, bullet_template,
+              "float,rounded,casts"},
       Program{"bullet-float-margin-0", "bullet-float-margin-0", "Bullet", cpp, bullet_template,
-              "float,sharp"},
+              "float,sharp,casts"},
       Program{"bullet-floor", "bullet-floor", "Bullet", cpp, bullet_template,
               "double,rounded,floor"},
       Program{"ode", "ode", "ODE", cpp, ode_template, ""},
       Program{"ode-floor", "ode-floor", "ODE", cpp, ode_template, "floor"},
-      Program{"fcl", "fcl", "FCL", cpp, fcl_template, "collide"},
+      Program{"fcl", "fcl", "FCL", cpp, fcl_template, "collide,sampled,casts"},
       Program{"fcl-indep", "fcl-indep", "FCL", cpp, fcl_template, "indep"},
-      Program{"fcl-distance", "fcl-distance", "FCL", cpp, fcl_template, "distance", false},
+      Program{"fcl-distance", "fcl-distance", "FCL", cpp, fcl_template,
+              "distance,advancement,casts", false},
       Program{"coal", "coal", "Coal", cpp, coal_template, ""},
       Program{"libccd", "libccd-gjk", "libccd", cpp, libccd_template, "gjk", false},
       Program{"libccd-mpr", "libccd-mpr", "libccd", cpp, libccd_template, "mpr", false},
       Program{"mujoco", "mujoco", "MuJoCo", cpp, mujoco_template, ""},
-      Program{"jolt", "jolt", "Jolt", javascript, jolt_mjs_template, "query,y,float,margin"},
+      Program{"jolt", "jolt", "Jolt", javascript, jolt_mjs_template, "query,y,float,margin,casts"},
       Program{"jolt", "jolt", "Jolt", cpp, jolt_doctest_template, "doctest,y,float"},
       Program{"jolt-margin-0", "jolt-margin-0", "Jolt", javascript, jolt_mjs_template,
-              "query,y,float,margin"},
+              "query,y,float,margin,casts"},
       Program{"jolt-margin-0", "jolt-margin-0", "Jolt", cpp, jolt_doctest_template,
               "doctest,y,float"},
       Program{"jolt-margin", "jolt-margin", "Jolt", javascript, jolt_mjs_template,
-              "query,y,float,margin"},
+              "query,y,float,margin,casts"},
       Program{"jolt-margin", "jolt-margin", "Jolt", cpp, jolt_doctest_template, "doctest,y,float"},
       Program{"jolt-world", "jolt-world", "Jolt", javascript, jolt_mjs_template,
               "world,y,float,margin"},
-      Program{"rapier", "rapier", "Rapier", javascript, rapier_mjs_template, "query,y,float"},
+      Program{"rapier", "rapier", "Rapier", javascript, rapier_mjs_template, "query,y,float,casts"},
       Program{"rapier-world", "rapier-world", "Rapier", javascript, rapier_mjs_template,
               "world,y,float"},
-      Program{"physx", "physx", "PhysX", javascript, physx_mjs_template, "query,x,float"},
+      Program{"physx", "physx", "PhysX", javascript, physx_mjs_template, "query,x,float,casts"},
       Program{"physx-world", "physx-world", "PhysX", javascript, physx_mjs_template,
               "world,x,float"},
-      Program{"havok", "havok", "Havok", javascript, havok_mjs_template, "float", false},
+      Program{"havok", "havok", "Havok", javascript, havok_mjs_template, "float,casts", false},
       Program{"mujoco3", "mujoco3", "MuJoCo", javascript, mujoco3_mjs_template, ""},
       Program{"mujoco3", "mujoco3", "MuJoCo", python, mujoco3_py_template, ""},
       Program{"mujoco3-single", "mujoco3-single", "MuJoCo", javascript, mujoco3_mjs_template,
@@ -93,6 +96,20 @@ std::string package_version(std::string_view package) {
 std::string_view tags_for(const Program& program, Pair pair) {
   // PhysX's query knows no plane, which its candidate asks a scene about.
   return program.engine == "physx" && pair == Pair::plane ? "world,x,float" : program.tags;
+}
+
+Tags tags_for(const Program& program, Pair pair, bool of_cast) {
+  Tags tags = names_in(tags_for(program, pair));
+  if (of_cast) {
+    const Tags of_contacts = {"query", "collide", "distance"};
+    std::erase_if(tags, [&](std::string_view tag) { return std::ranges::count(of_contacts, tag); });
+  }
+  tags.emplace_back(of_cast ? "cast" : "contact");
+  return tags;
+}
+
+bool knows_casts(const Program& program, Pair pair) {
+  return knows(program, pair) && tags_for(program, pair).ends_with("casts");
 }
 
 std::string_view tag_of_release(std::string_view name) {

@@ -6,6 +6,7 @@
 
 #include "candidates/candidates.hpp"
 #include "reference/configuration.hpp"
+#include "reports/reproducer/fill_template.hpp"
 #include "reports/reproducer/texts.hpp"
 
 namespace touchstone {
@@ -37,6 +38,9 @@ std::span<const Program> programs();
 /// Does it ask about a floor of triangles?
 bool has_floor(const Program& program);
 
+/// Has the program lines for casts of the pair?
+bool knows_casts(const Program& program, Pair pair);
+
 /// Has the program lines for the pair? Those that know convex bodies have lines for them.
 bool knows(const Program& program, Pair pair);
 
@@ -48,6 +52,8 @@ std::string string_literal(std::string_view text);
 
 /// The tags of its lines for that pair.
 std::string_view tags_for(const Program& program, Pair pair);
+/// The same, and "cast" or "contact": whichever is asked for.
+Tags tags_for(const Program& program, Pair pair, bool of_cast);
 
 /// "release" where the name of an engine of npm has one, which may lack what the newest has.
 std::string_view tag_of_release(std::string_view name);

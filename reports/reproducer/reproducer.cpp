@@ -7,8 +7,11 @@
 
 #include "candidates/candidates.hpp"
 #include "candidates/floor.hpp"
+#include "candidates/host/ask_cast.hpp"
 #include "candidates/npm_engines.hpp"
 #include "candidates/readable.hpp"
+#include "oracle/first_touch.hpp"
+#include "oracle/judge/cast_score.hpp"
 #include "oracle/truth.hpp"
 #include "properties/files/given_text.hpp"
 #include "properties/numbers.hpp"
@@ -25,13 +28,30 @@ extern const std::string_view head_template, mjcf_template, plugin_template, com
 
 namespace {
 
-/// Throws InvalidInput (field "--emit") with those that know the pair.
-[[noreturn]] void refuse(std::string_view name, Pair pair) {
+/// What a program is asked about, whose first touch is known of a cast.
+struct Question {
+  const Configuration& configuration;
+  const std::optional<Vec3>& sweep;
+
+  bool is_known_to(const Program& p) const {
+    const Pair pair = pair_of(configuration);
+    return sweep ? knows_casts(p, pair) : knows(p, pair);
+  }
+};
+
+/// Throws InvalidInput (field "--emit") with those that know the pair, and casts if one is asked.
+[[noreturn]] void refuse(std::string_view name, const Question& question) {
   std::vector<std::string> names = reproducer_engines();
   std::erase_if(names, [&](const std::string& n) {
     return std::none_of(programs().begin(), programs().end(),
-                        [&](const Program& p) { return p.engine == n && knows(p, pair); });
+                        [&](const Program& p) { return p.engine == n && question.is_known_to(p); });
   });
+  const Pair pair = pair_of(question.configuration);
+  if (question.sweep) {
+    throw InvalidInput("--emit", string_literal(name),
+                       fmt::format("must be one of {}, whose programs know casts of {}",
+                                   fmt::join(names, ", "), pair_name(pair)));
+  }
   const char* const what = pair == Pair::plane    ? ", that knows a half-space"
                            : pair == Pair::convex ? " of a plug-in, that knows convex bodies"
                                                   : "";
@@ -54,9 +74,10 @@ const Candidate* askable_candidate(std::string_view name) {
 
 /// The program for an engine or candidate in a language, or the usual one.
 const Program& find_program(std::string_view name, std::string_view language,
-                            const Configuration& c, const Candidate* candidate) {
+                            const Question& question, const Candidate* candidate) {
   static const Program plugin{"", "", "", cpp, plugin_template, ""};
   static const Program command{"", "", "", python, command_py_template, ""};
+  const Configuration& c = question.configuration;
   if (c.a.rounding() > 0 || rounding_of(c.b) > 0) {
     throw InvalidInput("--emit", string_literal(name),
                        "must be left out: programs have no rounded bodies");
@@ -71,11 +92,13 @@ const Program& find_program(std::string_view name, std::string_view language,
     }
   }
   if (of_engine.empty()) {
-    if (!candidate || (!candidate->command() && !candidate->plugin())) refuse(name, pair);
+    if (!candidate || question.sweep || (!candidate->command() && !candidate->plugin())) {
+      refuse(name, question);
+    }
     of_engine.push_back(candidate->command() ? &command : &plugin);
   }
-  std::erase_if(of_engine, [&](const Program* p) { return !knows(*p, pair); });
-  if (of_engine.empty()) refuse(name, pair);
+  std::erase_if(of_engine, [&](const Program* p) { return !question.is_known_to(*p); });
+  if (of_engine.empty()) refuse(name, question);
   if (candidate && !candidate->has_routine_for(pair)) {
     throw InvalidInput("--emit", string_literal(name),
                        fmt::format("must be a candidate with a routine for {}", pair_name(pair)));
@@ -103,6 +126,20 @@ std::string seen(std::string_view title, NumberStyle numbers, const Candidate* c
                                             : fmt::format("{:.17g}", answer.signed_distance);
   }
   return text;
+}
+
+/// Likewise its answer to a cast.
+std::string seen_cast(std::string_view title, const Candidate* candidate, const Configuration& c,
+                      const Vec3& sweep, const oracle::FirstTouch& touch, const Bar& bar) {
+  if (!candidate) return fmt::format("{} is not installed where this was written", title);
+  const CastQuestion question{c, sweep};
+  const std::optional<CastAnswer> answer = ask_casts(*candidate, {&question, 1}).front();
+  if (!answer) throw InvalidInput("sweep", "of this pair", "must be one that the engine casts");
+  std::string text = fmt::format("{} {}: ", title, candidate->version);
+  if (!answer->cast) return text + "failed";
+  text += outcome_name(score_cast(c, Sweep(sweep), touch, *answer->cast, bar).outcome);
+  if (answer->cast->status == CastStatus::never) return text + ", no touch";
+  return text + fmt::format(", touch at {} of the sweep", answer->cast->fraction);
 }
 
 /// How far the true distance lies from what may be answered.
@@ -181,31 +218,41 @@ std::vector<std::string> reproducer_engines() {
 }
 
 std::string reproducer(std::string_view name, std::string_view language, const Configuration& c,
-                       const std::string& asked, const Bar& bar, const Limits& limits) {
+                       const std::optional<Vec3>& sweep, const std::string& asked, const Bar& bar,
+                       const Limits& limits) {
   const auto same = [&](const Program& p) { return p.engine == name; };
   const auto of_engine = std::find_if(programs().begin(), programs().end(), same);
   const Candidate* const candidate =
       askable_candidate(of_engine == programs().end() ? name : of_engine->candidate);
-  const Program& program = find_program(name, language, c, candidate);
+  const Program& program = find_program(name, language, {c, sweep}, candidate);
   const bool is_test = program.tags.starts_with("doctest");
   if (is_test) require_floats(name, c);
   const std::string title(program.title.empty() ? "The candidate" : program.title);
 
   // Its numbers are those that the engine gets, which are rounded, and so is the truth of them.
   const Configuration given = as_asked(c);
-  const oracle::Truth truth = oracle::truth(given);
-  const double allowed = bar.tolerance * error_size(given, bar);
   const NumberStyle numbers = program.language.numbers;
+  Tags tags = tags_for(program, pair_of(c), sweep.has_value());
   Texts texts = question_texts(c, numbers);
-  texts.merge(truth_texts(given, truth, bar, numbers));
+  if (sweep) {
+    const oracle::FirstTouch touch = oracle::first_touch(given, Sweep(*sweep));
+    texts.merge(cast_texts(given, *sweep, touch, bar, numbers));
+    texts["seen"] = seen_cast(title, candidate, given, *sweep, touch, bar);
+    tags.emplace_back(status_name(touch.status));
+  } else {
+    const oracle::Truth truth = oracle::truth(given);
+    const double allowed = bar.tolerance * error_size(given, bar);
+    texts.merge(truth_texts(given, truth, bar, numbers));
+    texts["seen"] = seen(title, numbers, candidate, c, truth, bar, limits);
+    tags.push_back(tag_of_distance(truth.signed_distance.midpoint(), allowed, bar.threshold));
+  }
   texts.merge(npm_texts(program, name, candidate, c));
   texts.merge(floor_texts(program, candidate, c));
   texts.merge(candidate_texts(candidate));
   const std::string shape = shape_name(c.b);
-  Tags tags = names_in(tags_for(program, pair_of(c)));
   tags.insert(
       tags.end(),
-      {shape, tag_of_distance(truth.signed_distance.midpoint(), allowed, bar.threshold),
+      {shape,
        candidate && candidate->command() && candidate->command()->in_frames ? "frames" : "lines",
        program.engine.empty() ? "plugin" : "engine", has_floor(program) ? "floor" : "solid",
        is_test ? "test" : "program", tag_of_release(name)});
@@ -225,15 +272,16 @@ std::string reproducer(std::string_view name, std::string_view language, const C
             {"test_name", ""},
             {"decorator", ""},
             {"turn_a_float", texts["a_along_y_float"]},
-            {"turn_b_float", texts[(is_round ? "b_along_y" : "xyzw_b") + std::string("_float")]},
-            {"seen", seen(title, numbers, candidate, c, truth, bar, limits)}});
+            {"turn_b_float", texts[(is_round ? "b_along_y" : "xyzw_b") + std::string("_float")]}});
   const auto part = [&](std::string_view source) { return fill_template(source, tags, texts); };
+  const std::string_view shared = program.language.shared;
   texts["mjcf"] = part(mjcf_template);
   texts["head"] = part(head_template);
-  texts["answer"] = part(section(program.language.shared, "answer"));
-  texts["question"] = part(section(program.language.shared, "question")) + '\n';
-  if (has_floor(program)) texts["floor"] = part(section(program.language.shared, "floor")) + '\n';
-  texts["judgement"] = part(section(program.language.shared, "judgement"));
+  texts["answer"] = part(section(shared, sweep ? "cast answer" : "answer"));
+  texts["question"] = part(section(shared, "question")) + '\n';
+  if (has_floor(program)) texts["floor"] = part(section(shared, "floor")) + '\n';
+  texts["verdict"] = part(section(shared, sweep ? "cast" : "contact"));
+  texts["judgement"] = part(section(shared, "judgement"));
   return part(program.source) + '\n';
 }
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Writes and runs programs for one engine, by the line in their comment:
 # reproducer_test.sh PROGRAM "OPTIONS" ENGINE LANGUAGE CONFIGURATION OUTCOME … with pairs of a
-# configuration (an identity, FILE.jsonl:ID for a line of a file, or the line) and the outcome that
+# configuration (an identity, FILE.jsonl:ID for a line of a file, or the line), or a cast, and the outcome that
 # its candidate is known for. OPTIONS are Touchstone's own, those that add a candidate. Packages of npm
 # are found in TOUCHSTONE_NPM.
 set -u
@@ -87,11 +87,17 @@ prepare() {
 
 # Makes the program take the truth for its engine's answer where it is given an argument.
 plant_a_right_engine() {
-  sed -i -e 's|  const answer = ask();|  const answer = process.argv[2] ? { distance: trueDistance, normal: trueNormals[0], points: [{ position: middle, normal: trueNormals[0], depth: -trueDistance }] } : ask();|' \
+  local js='{ distance: trueDistance, normal: trueNormals[0], points: [{ position: middle, normal: trueNormals[0], depth: -trueDistance }] }'
+  local cpp='  answer.kind = Answer::contact;\n  answer.distance = true_distance;\n  answer.normal = vector(true_normals[0]);\n  answer.points = {{vector(middle), answer.normal, -true_distance}};\n'
+  if grep -q 'A moves by this much' "$folder/reproducer"; then
+    js='(earliest > latest ? null : { fraction: trueFraction, normal: trueNormals[0] })'
+    cpp='  answer = {earliest <= latest, true_fraction, vector(true_normals[0])};\n'
+  fi
+  sed -i -e "s|  const answer = ask();|  const answer = process.argv[2] ? $js : ask();|" \
     -e 's|^        answer = ask()|        answer = Answer(true_distance, true_normals[0], [Point(middle, true_normals[0], -true_distance)]) if sys.argv[1:] else ask()|' \
     -e 's|^  const Answer answer = ask();|  const Answer answer = count > 1 ? truth() : ask();|' "$folder/reproducer"
   [ "$language" = c++ ] || return 0
-  sed -i "s|^int main() {|Answer truth() {\n  Answer answer;\n  answer.kind = Answer::contact;\n  answer.distance = true_distance;\n  answer.normal = vector(true_normals[0]);\n  answer.points = {{vector(middle), answer.normal, -true_distance}};\n  return answer;\n}\nint main(int count, char**) {|" "$folder/reproducer"
+  sed -i "s|^int main() {|Answer truth() {\n  Answer answer;\n$cpp  return answer;\n}\nint main(int count, char**) {|" "$folder/reproducer"
 }
 
 while [ $# -gt 0 ]; do
@@ -135,6 +141,21 @@ while [ $# -gt 0 ]; do
 import json, re, sys
 seen, printed, answers = sys.argv[1:]
 number = lambda pattern, text=printed: float(re.search(pattern, text).group(1))
+if "of the sweep, normal" in printed:
+    # To the last bit what the candidate answers to the cast.
+    [given] = json.loads(answers)["cast"]["answers"].values()
+    said = re.search(r"touch at (\S+) of the sweep, normal \((\S+), (\S+), (\S+)\)", printed)
+    assert [float(x) for x in said.groups()] == [given["fraction"], *given["normal"]], "not the candidate's cast"
+if "of its sweep" in printed:
+    # The clearance ends at the true touch, at a point of both bodies.
+    if "It ends at" in printed:
+        truth = number(r"when it has gone (\S+) of its sweep")
+        assert abs(number(r"It ends at (\S+),") - truth) < 1e-12, "no proof"
+        for of_body in re.search(r"within A by (\S+) and within B by (\S+),", printed).groups():
+            assert abs(float(of_body)) < 1e-12, "no point of both bodies"
+    if "It never ends" in printed:
+        assert number(r"at the start (\S+),") > 0 and number(r"end of the sweep +(\S+),") > 0, "no proof"
+    sys.exit()
 # To the last bit what the candidate answers.
 if ", signed distance " in seen:
     answer = number(r", signed distance (\S+)$", seen)

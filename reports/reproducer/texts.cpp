@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "candidates/candidates.hpp"
+#include "oracle/judge/cast_score.hpp"
 #include "oracle/patch/contact_patch.hpp"
 #include "properties/files/answer_json.hpp"
 #include "reports/replay.hpp"
@@ -160,15 +161,13 @@ Texts question_texts(const Configuration& c, NumberStyle numbers) {
   return writer.texts;
 }
 
-Texts truth_texts(const Configuration& c, const oracle::Truth& truth, const Bar& bar,
-                  NumberStyle numbers) {
-  const auto [low, high] = decimals(truth.signed_distance);
-  const double distance = nearest_to_middle(truth.signed_distance);
+namespace {
+
+/// The best normals, and what is in the middle of where the bodies meet along the first of them.
+void put_best(Writer& writer, const Configuration& c, const oracle::Truth& truth,
+              NumberStyle numbers) {
   const Vec3 n = truth.normals.front().n;
   const Vec3 middle = oracle::contact_patch(c, truth.normals.front()).centroid();
-  Writer writer(numbers);
-  writer.put("true_distance", distance);
-  writer.put("true_depth", -distance);
   std::vector<std::string> normals;
   for (const oracle::OptimalNormal& optimal : truth.normals) {
     writer.put("true_normal", std::span(optimal.n.data(), 3));
@@ -178,15 +177,75 @@ Texts truth_texts(const Configuration& c, const oracle::Truth& truth, const Bar&
   writer.texts["true_normals"] = fmt::format("{}", fmt::join(normals, ", "));
   writer.put("true_axis", std::array{-n.x(), -n.y(), -n.z()});
   writer.put("middle", std::span(middle.data(), 3));
-  writer.put("allowed", bar.tolerance * error_size(c, bar));
+}
+
+void put_bar(Writer& writer, const Configuration& c, const Bar& bar) {
   writer.put("threshold", bar.threshold);
-  writer.texts["truth_low"] = low;
-  writer.texts["truth_high"] = high;
+  writer.put("allowed", bar.tolerance * error_size(c, bar));
   const bool is_of_smaller = error_size(c, bar) == smaller_size(c);
   writer.texts["allowed_words"] =
       is_of_smaller ? fmt::format("{} of the smaller half extent of both bodies", bar.tolerance)
                     : fmt::format("{} of the largest length, for doubles place no body better",
                                   std::min(bar.tolerance, 1e-13));
+}
+
+/// The last part of a sweep that `holds`, on the way from one that does.
+double last_that(const std::function<bool(double)>& holds, double yes, double no) {
+  constexpr int halvings = 40;
+  if (holds(no)) return no;
+  for (int i = 0; i < halvings; ++i) {
+    const double middle = (yes + no) / 2;
+    (holds(middle) ? yes : no) = middle;
+  }
+  return yes;
+}
+
+}  // namespace
+
+Texts truth_texts(const Configuration& c, const oracle::Truth& truth, const Bar& bar,
+                  NumberStyle numbers) {
+  const auto [low, high] = decimals(truth.signed_distance);
+  const double distance = nearest_to_middle(truth.signed_distance);
+  Writer writer(numbers);
+  writer.put("true_distance", distance);
+  writer.put("true_depth", -distance);
+  put_best(writer, c, truth, numbers);
+  put_bar(writer, c, bar);
+  writer.texts["truth_low"] = low;
+  writer.texts["truth_high"] = high;
+  return writer.texts;
+}
+
+Texts cast_texts(const Configuration& c, const Vec3& sweep, const oracle::FirstTouch& touch,
+                 const Bar& bar, NumberStyle numbers) {
+  using Status = oracle::FirstTouch::Status;
+  const Sweep moves(sweep);
+  const DistanceInTime distance(c, moves);
+  const double allowed = bar.tolerance * error_size(c, bar);
+  const double first = touch.fraction.hi.get_d();
+  const auto [of_nearest, nearest] = distance.nearest(touch.status == Status::never ? 0 : first, 1);
+  const double at = touch.status == Status::never ? of_nearest : first;
+  // As score_cast judges: from where A is near enough until it has been too deep or leaves again,
+  // which it cannot while it has moved by no more than is allowed.
+  const auto is_near = [&](double t) { return distance.at(t) <= allowed; };
+  const auto is_shallow = [&](double t) { return distance.at(t) >= -allowed; };
+  double earliest = 1, latest = 0;
+  if (is_near(at)) {
+    earliest = last_that(is_near, at, 0);
+    latest =
+        nearest < -allowed ? last_that(is_shallow, first, of_nearest) : last_that(is_near, at, 1);
+    latest = std::max(latest, std::min(1.0, at + allowed / sweep.stableNorm()));
+  }
+  Writer writer(numbers);
+  writer.put("sweep", std::span(sweep.data(), 3));
+  writer.put("true_fraction", at);
+  writer.put("deepest", std::max(0.0, -nearest));
+  writer.put("earliest", earliest);
+  writer.put("latest", latest);
+  put_bar(writer, c, bar);
+  put_best(writer, swept(c, moves, at),
+           touch.there ? *touch.there : oracle::truth_at(c, sweep, at, 1e-30), numbers);
+  writer.texts["first_touch"] = first_touch_text(touch);
   return writer.texts;
 }
 

@@ -4,6 +4,7 @@
 #include <map>
 #include <string>
 
+#include "oracle/first_touch.hpp"
 #include "oracle/truth.hpp"
 #include "reference/configuration.hpp"
 #include "reports/replay.hpp"
@@ -26,6 +27,10 @@ Texts question_texts(const Configuration& c, NumberStyle numbers);
 /// The truth, and what is allowed.
 Texts truth_texts(const Configuration& c, const oracle::Truth& truth, const Bar& bar,
                   NumberStyle numbers);
+
+/// The truth of a cast, and what is allowed. `touch`: decided.
+Texts cast_texts(const Configuration& c, const Vec3& sweep, const oracle::FirstTouch& touch,
+                 const Bar& bar, NumberStyle numbers);
 
 /// Jolt's convex radii, by a rule for the smallest half extent of a shape.
 Texts convex_radius_texts(const Configuration& c, const std::function<double(double)>& rule);
