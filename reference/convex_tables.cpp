@@ -233,8 +233,8 @@ ConvexTables::ConvexTables(const std::vector<Vec3>& points, const std::vector<Co
     const Vec3 middle = (left + right + along.cross(left - right)).normalized();
     const int index = static_cast<int>(edges.size());
     edges.push_back({Vec3::Zero(), along, middle, 0, 0, e.vertices, e.faces[0], e.faces[1]});
-    of_face[e.faces[0]].push_back({index, e.faces[1]});
-    of_face[e.faces[1]].push_back({index, e.faces[0]});
+    of_face[e.faces[0]].push_back({index, e.faces[1], along.cross(left)});
+    of_face[e.faces[1]].push_back({index, e.faces[0], right.cross(along)});
     for (const int v : e.vertices) edges_at[v].push_back(index);
   }
   face_edges = lists_of(of_face);

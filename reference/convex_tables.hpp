@@ -39,6 +39,7 @@ struct ConvexTables {
   };
   struct FaceEdge {
     int edge, other;  ///< and the face beyond it
+    Vec3 outward;     ///< in the face's plane, across the edge
   };
   /// Faces that lie in one plane but for the rounding of their vertices: what a cap stands on.
   struct Facet {

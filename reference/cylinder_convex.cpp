@@ -5,41 +5,33 @@
 #include <limits>
 #include <optional>
 
-#include "convex_tables.hpp"
+#include "convex_proofs.hpp"
 #include "curves.hpp"
-#include "deep_normals.hpp"
+#include "cylinder_segment.hpp"
 #include "pair.hpp"
 
-// In the hull's frame the largest gap lies at one normal of six kinds, tried in this order:
+// In the hull's frame the largest gap lies at one normal of six kinds:
 //
 //   cap, face        of one of the bodies; often one of its points proves it
-//   side_and_edge    across axis and edge: mostly proven where they cross
+//   side_and_edge    across axis and edge
 //   side_and_vertex  across the axis: a vertex beside the side
 //   rim_and_vertex   neither, only apart: a vertex off a rim
 //   rim_and_edge     across an edge: it crosses a rim, which is a point against an ellipse, seen
-//                    along the edge; of edges and rims the likely one is tried first, and mostly
-//                    proves itself
+//                    along the edge
 //
-// Faces are tried all. Of edges and vertices only those that a point of A leaves open: with n
-// between the normals n1 and n2 of an edge's faces, n = k1 n1 + k2 n2 with k1, k2 >= 0 and
-// k1 + k2 >= 1, so that g(n) is no more than k1 s1 + k2 s2, the heights of the point above the
-// faces; likewise at a vertex (proofs.md, "Convex bodies"). A point where A and B are deepest in
-// each other is far below all other faces, and few edges are left.
+// A hull has no larger gap than a part of it. So where the best cap or face is not proven, the edge
+// beyond which the bodies would meet is asked alone, as a segment (cylinder_segment.hpp): if the
+// whole hull lies behind that edge along the segment's best normal, it is the hull's, too.
+//
+// Else of faces, edges and vertices those are tried that a point of A leaves open: with n between
+// the normals n1 and n2 of an edge's faces, n = k1 n1 + k2 n2 with k1, k2 >= 0 and k1 + k2 >= 1, so
+// that g(n) is no more than k1 s1 + k2 s2, the heights of the point above the faces; likewise at a
+// vertex (proofs.md, "Convex bodies"). A point where A and B are deepest in each other is far below
+// all other faces, and few edges are left.
 
 namespace touchstone {
 namespace {
 
-struct CylinderInHullFrame {
-  const ConvexTables& b;
-  double r, h;
-  Vec3 d;          ///< the cylinder's centre
-  Vec3 u;          ///< its axis
-  double lengths;  ///< all together
-
-  double gap(const Vec3& n) const {
-    return d.dot(n) - h * std::abs(u.dot(n)) - r * u.cross(n).norm() - b.support(n);
-  }
-};
 using InHull = CylinderInHullFrame;
 
 StageResult at(double gap, const Vec3& n, bool is_proven = false) {
@@ -56,34 +48,24 @@ StageResult tried(const InHull& p, const Vec3& n, double promised, const Vec3& v
 /// What is compared without its root is at least this part of what counts.
 constexpr double less_a_hair = 1 - 1e-12;
 
-/// Is a gap the one that a feature alone has, so that the hull is met there?
-bool is_that_of_feature(const InHull& p, double gap, double of_feature) {
-  return gap >= of_feature - proof_part * p.lengths;
-}
-
-/// A normal, and what of the hull meets A along it.
-struct Meeting {
-  enum class Kind {
-    vertex_of_cap,  ///< a vertex on the cap
-    face,
-    edge,            ///< across the side
-    vertex_of_side,  ///< beside the side, or off a rim
-    edge_of_rim
-  };
+/// The best normal so far, and where on the hull the bodies meet along it.
+struct Best {
   StageResult found;
-  Kind kind;
-  int feature;  ///< its index
-  Vec3 place;   ///< of it, where the bodies meet
+  Vec3 place;
 
-  void improve(const Meeting& later) {
-    if (later.found.gap > found.gap) *this = later;
+  void improve(const StageResult& later, const Vec3& there) {
+    if (later.gap > found.gap) *this = {later, there};
   }
 };
-using Kind = Meeting::Kind;
 
+/// What was found along the normal of a cap or face, and the vertex or face of the hull there.
+struct OfFeature {
+  StageResult found;
+  int feature = 0;
+};
 /// Is proven where the hull's vertex that faces the cap lies on it, its depth away from the rim:
 /// the bodies are no nearer than that, and the ball of that depth about it is in A.
-Meeting cap(const InHull& p) {
+OfFeature cap(const InHull& p) {
   using Four = ConvexTables::Four;
   Four lowest = p.b.vertices.front().along(p.u), highest = lowest;
   for (std::size_t i = 1; i < p.b.vertices.size(); ++i) {
@@ -92,18 +74,18 @@ Meeting cap(const InHull& p) {
   }
   const double low = lowest.minCoeff(), high = highest.maxCoeff(), centre = p.d.dot(p.u);
   const double above = centre - p.h - high, below = low - centre - p.h;
-  const bool is_above = above >= below;
-  const double gap = is_above ? above : below, delta = depth(gap);
-  const int vertex = p.b.first_at(p.u, is_above ? high : low);
-  const Vec3 place = p.b.vertex(vertex), arm = place - p.d;
-  const Vec3 across = arm - arm.dot(p.u) * p.u;
+  const double side = std::copysign(1, above - below);
+  const Vec3 n = side * p.u;
+  const double gap = std::max(above, below), delta = depth(gap);
+  const int vertex = p.b.first_at(n, above >= below ? high : -low);
+  const Vec3 arm = p.b.vertex(vertex) - p.d, across = arm - arm.dot(p.u) * p.u;
   const double room = p.r - delta;
-  const bool is_proven = delta <= p.h && room >= 0 && across.squaredNorm() <= room * room;
-  return {at(gap, is_above ? p.u : Vec3(-p.u), is_proven), Kind::vertex_of_cap, vertex, place};
+  const bool is_proven = (delta <= p.h) & (room >= 0) & (across.squaredNorm() <= room * room);
+  return {at(gap, n, is_proven), vertex};
 }
 
 /// The best face, if it is better than that.
-Meeting face(const InHull& p, double best) {
+OfFeature face(const InHull& p, double best) {
   using Four = ConvexTables::Four;
   int found = -1;
   for (std::size_t i = 0; i < p.b.faces.size(); ++i) {
@@ -122,131 +104,8 @@ Meeting face(const InHull& p, double best) {
   }
   if (found < 0) return {};
   found = std::min(found, p.b.face_count - 1);
-  return {at(best, p.b.face_normal(found)), Kind::face, found,
-          p.b.face_middles[static_cast<std::size_t>(found)]};
+  return {at(best, p.b.face_normal(found)), found};
 }
-
-/// Of what is left of a unit vector without its part along another one, rounding counts where it is
-/// shorter than this.
-constexpr double few_digits = 0.1;
-
-/// A's point that faces the hull along n; of a cap or generator that lies across n, the one that is
-/// nearest to x.
-Vec3 point_facing(const InHull& p, const Vec3& n, const Vec3& x) {
-  constexpr double flat = 1e-15;
-  const double along = n.dot(p.u);
-  const double height = std::abs(along) > flat ? -std::copysign(p.h, along)
-                                               : std::clamp((x - p.d).dot(p.u), -p.h, p.h);
-  const Vec3 centre = p.d + height * p.u;
-  Vec3 outward = n - along * p.u;
-  const double sine = outward.norm();
-  if (sine >= few_digits) return centre - p.r / sine * outward;
-  if (sine > flat) {  // on the rim or side, unless it is only what rounding leaves along the axis
-    outward /= sine;
-    outward -= outward.dot(p.u) * p.u;
-    const double length = outward.norm();
-    if (length > 0.5) return centre - p.r / length * outward;
-  }
-  const Vec3 arm = x - p.d, beside = arm - arm.dot(p.u) * p.u;
-  return centre + std::min(1.0, p.r / beside.norm()) * beside;
-}
-
-/// Which edge of a face a point is the farthest beyond, seen along its normal, and how far
-/// (negative within all of them).
-struct BeyondEdge {
-  int edge = 0;
-  double by = -std::numeric_limits<double>::infinity();
-
-  BeyondEdge(const InHull& p, int face, const Vec3& x) {
-    const Vec3& n = p.b.face_normal(face);
-    for (const ConvexTables::FaceEdge& e : p.b.face_edges.of(face)) {
-      const ConvexTables::Edge& other = p.b.edges[e.edge];
-      const double outward = other.along.cross(n).dot(x - other.from);
-      const double beyond = other.left == face ? outward : -outward;
-      if (beyond > by) edge = e.edge, by = beyond;
-    }
-  }
-};
-
-/// A's point that faces the face lies on it, its depth away from the edges, and A is that thick:
-/// with a disc about that point no less than the depth leads out (proofs.md, "Convex bodies"),
-/// whether or not there is anything of the hull behind the face.
-bool is_proven_at_face(const InHull& p, double gap, const BeyondEdge& nearest) {
-  const double delta = depth(gap);
-  return delta <= std::min(p.r, p.h) && nearest.by <= -delta;
-}
-
-/// Does a point lie so deep in A that a ball of this radius about it does, too? Then no normal of
-/// bodies that share it has less depth.
-bool holds_ball(const InHull& p, const Vec3& x, double depth) {
-  const Vec3 arm = p.d - x;
-  const double height = arm.dot(p.u), room = p.r - depth;
-  const Vec3 across = arm - height * p.u;
-  return std::abs(height) <= p.h - depth && room >= 0 && across.squaredNorm() <= room * room;
-}
-
-/// A's point that faces a face, and how high it lies above that.
-struct FacingPoint {
-  Vec3 x;
-  double height;
-
-  FacingPoint(const InHull& p, int face)
-      : x(point_facing(p, p.b.face_normal(face), p.b.face_middles[static_cast<std::size_t>(face)])),
-        height(p.b.height(x, face)) {}
-};
-
-/// The edges that A's point x leaves open for a gap above the best one.
-class OpenEdges {
- public:
-  /// All of them.
-  explicit OpenEdges(const InHull& p) : p_(p) {}
-  OpenEdges(const InHull& p, const Vec3& x, double best)
-      : p_(p), x_(x), is_excluding_(true), margin_(rounding_part / 2 * p.lengths) {
-    closed_ = std::min(best, 0.0) - margin_;
-    level_ = best <= 0 ? best + margin_ / 2 : closed_;
-  }
-
-  /// Calls visit(edge, face, other), indices of an edge and the faces beside it, until it returns
-  /// false.
-  template <class Visit>
-  void visit(Visit visit) const {
-    if (!is_excluding_) {
-      for (std::size_t i = 0; i < p_.b.edges.size(); ++i) {
-        if (!visit(static_cast<int>(i), p_.b.edges[i].left, p_.b.edges[i].right)) return;
-      }
-      return;
-    }
-    for (std::size_t i = 0; i < p_.b.faces.size(); ++i) {
-      const ConvexTables::Four heights = p_.b.faces[i].heights(x_);
-      if (heights.maxCoeff() <= closed_) continue;
-      for (int k = 0; k < 4; ++k) {
-        const int face = 4 * static_cast<int>(i) + k;
-        if (heights[k] <= closed_ || face >= p_.b.face_count) continue;
-        for (const ConvexTables::FaceEdge& e : p_.b.face_edges.of(face)) {
-          const bool is_other_closed = p_.b.height(x_, e.other) <= closed_;
-          if (is_other_closed ? heights[k] <= level_ : e.other < face) continue;
-          if (!visit(e.edge, face, e.other)) return;
-        }
-      }
-    }
-  }
-  /// Whether a point of A that faces a face leaves the edge to another one open; and the point that
-  /// faces that one, too: each may exclude the normals up to the middle.
-  bool leaves_open(const ConvexTables::Edge& e, const FacingPoint& x, int other) const {
-    if (!(x.height <= level_)) return true;
-    if (p_.b.height(x.x, other) <= closed_) return false;
-    const auto excludes_half = [&](const FacingPoint& y) {
-      return y.height <= level_ && e.middle.dot(y.x - e.from) <= closed_;
-    };
-    return !(excludes_half(x) && excludes_half(FacingPoint(p_, other)));
-  }
-
- private:
-  const InHull& p_;
-  Vec3 x_ = Vec3::Zero();
-  bool is_excluding_ = false;
-  double margin_ = 0, closed_ = 0, level_ = 0;
-};
 
 /// An edge and the cylinder, seen along the edge: its axis is a line, each cap an ellipse.
 struct SeenAlongEdge {
@@ -297,13 +156,7 @@ StageResult side_and_edge(const InHull& p, const SeenAlongEdge& seen, double bes
   const double side = std::copysign(1, seen.aside.dot(seen.edge.middle));
   const double distance = side * seen.arm.dot(seen.aside);
   if (!(distance - p.r > best)) return {};
-  StageResult found = tried(p, side * seen.aside, distance - p.r, seen.edge.from, best);
-  if (!(found.gap > best)) return found;
-  const double along_edge = seen.on_edge(), delta = depth(found.gap);
-  found.is_proven = is_that_of_feature(p, found.gap, distance - p.r) && delta <= p.r &&
-                    std::abs(seen.on_axis()) <= p.h - delta && along_edge >= 0 &&
-                    along_edge <= seen.edge.length;
-  return found;
+  return tried(p, side * seen.aside, distance - p.r, seen.edge.from, best);
 }
 
 /// Of a vertex of the hull, and the way to another one, which is nearer to A if n points along it.
@@ -322,9 +175,6 @@ StageResult side_or_rim_and_vertex(const InHull& p, const Vec3& v, const Vec3& t
     const double length = n.norm();
     if (length > 0.5) {  // else the vertex is on the axis, but for rounding
       found = tried(p, n / length, radial - p.r, v, best);
-      const double delta = depth(found.gap);
-      found.is_proven = is_that_of_feature(p, found.gap, radial - p.r) &&
-                        std::abs(height) <= p.h - delta && delta <= p.r;
     }
   }
   if (!(above > 0)) return found;
@@ -334,10 +184,7 @@ StageResult side_or_rim_and_vertex(const InHull& p, const Vec3& v, const Vec3& t
   const Vec3 off = std::copysign(above, height) * p.u + (beside / radial) * across;
   const Vec3 n = off.normalized();
   if (LargestGap::is_unit(n)) {
-    const double distance = off.norm();
-    StageResult later = tried(p, n, distance, v, most);  // of two points
-    later.is_proven = is_that_of_feature(p, later.gap, distance);
-    found.improve(later);
+    found.improve(tried(p, n, off.norm(), v, most));
   }
   return found;
 }
@@ -359,21 +206,6 @@ double missed_on_arc(double r, double b, double aside, double ahead,
   }
   if (arc.last && cross2(arc.first, *arc.last) < 0) return 0;
   return ellipse_excess(r, b, aside, ahead, foot, -best, arc);
-}
-
-/// Proofs for a normal at which a rim and an edge meet (`bends_away`): `nu` is n·u, `squared`
-/// 1 − nu², `slope` what is left of the gap's derivative across the edge. Where the hull goes on
-/// across the edge is not asked, so that A alone has to be thick enough.
-bool is_proven_at_rim(const InHull& p, const SeenAlongEdge& seen, double end, double nu,
-                      double squared, double gap, double slope) {
-  const double where = seen.arm.dot(seen.edge.along) - end * p.h * seen.cosine +
-                       p.r * nu * seen.cosine / std::sqrt(squared);
-  const double beyond = std::min(where, seen.edge.length - where);
-  if (!(beyond > 0)) return false;
-  const double rounding = proof_part * p.lengths;
-  if (is_met_by_points(gap, slope, rounding)) return true;
-  const double squared_sine = seen.cosine * seen.cosine / squared;
-  return bends_away({p.r, p.h}, {2 * beyond, 0}, squared_sine, depth(gap), slope + rounding);
 }
 
 /// The rim of an end, +1 or -1 along the axis. `highest`, where it is asked for, is raised to a
@@ -401,13 +233,6 @@ StageResult rim_and_edge(const InHull& p, const SeenAlongEdge& seen, double end,
     if (promised > best) {
       found =
           tried(p, end * y * seen.ahead + side * x * seen.aside, promised, seen.edge.from, best);
-      if (found.gap > best && !highest && is_that_of_feature(p, found.gap, promised)) {
-        const double slope =
-            std::abs(x * ahead - y * beside + (p.r - b) * (p.r + b) * x * y / reach);
-        found.is_proven =
-            is_proven_at_rim(p, seen, end, end * seen.sine * y,
-                             x * x + seen.cosine * seen.cosine * (y * y), found.gap, slope);
-      }
     }
   }
   if (!highest) return found;
@@ -447,54 +272,18 @@ int highest_edge(const InHull& p, int vertex, const Vec3& way, const Vec3& n) {
   return found;
 }
 
-/// Where the best normal is not proven, because the place at which the bodies would meet lies
-/// beyond an edge or a rim: what meets there instead, if that is better.
-Meeting likely(const InHull& p, const Meeting& best, int beyond) {
-  const Vec3 n = best.found.normal();
-  const auto side_and_vertex = [&](int vertex, const Vec3& to_other) -> Meeting {
-    const Vec3& v = p.b.vertex(vertex);
-    return {side_or_rim_and_vertex(p, v, to_other, best.found.gap), Kind::vertex_of_side, vertex,
-            v};
-  };
-  int edge = beyond;
-  double end = std::copysign(1, n.dot(p.u));
-  bool may_be_side = true;
-  switch (best.kind) {
-    case Kind::vertex_of_cap: {
-      const Vec3 arm = p.d - best.place, across = arm - arm.dot(p.u) * p.u;
-      edge = highest_edge(p, best.feature, across, n);
-      if (edge >= 0 && across.squaredNorm() <= p.r * p.r) {
-        const ConvexTables::Edge& e = p.b.edges[static_cast<std::size_t>(edge)];
-        const double to_other = e.vertices[0] == best.feature ? e.length : -e.length;
-        return side_and_vertex(best.feature, to_other * e.along);
-      }
-      break;
-    }
-    case Kind::face:
-      break;
-    case Kind::edge:
-    case Kind::vertex_of_side:
-      end = std::copysign(1, (p.d - best.place).dot(p.u));
-      edge = best.kind == Kind::edge ? best.feature : highest_edge(p, best.feature, end * p.u, n);
-      may_be_side = best.kind != Kind::edge;
-      break;
-    case Kind::edge_of_rim:
-      return {};
-  }
-  if (edge < 0) return {};
-  const SeenAlongEdge seen(p, p.b.edges[static_cast<std::size_t>(edge)]);
-  if (!seen.is_crossed) return {};
-  const double along = seen.on_edge();
-  if (may_be_side && std::abs(seen.on_axis()) <= p.h) {
-    if (along >= 0 && along <= seen.edge.length) {
-      return {side_and_edge(p, seen, best.found.gap), Kind::edge, edge, seen.nearest_to_axis()};
-    }
-    const Vec3 to_other = seen.edge.length * seen.edge.along;
-    return along < 0 ? side_and_vertex(seen.edge.vertices[0], to_other)
-                     : side_and_vertex(seen.edge.vertices[1], -to_other);
-  }
-  return {rim_and_edge(p, seen, end, best.found.gap, nullptr), Kind::edge_of_rim, edge,
-          seen.edge.from};
+/// An edge alone, as a segment: its best normal is the hull's where the hull lies behind it.
+StageResult edge_alone(const InHull& p, int edge, double best) {
+  const ConvexTables::Edge& e = p.b.edges[static_cast<std::size_t>(edge)];
+  const double half = e.length / 2;
+  const FoldedSegment segment{FoldedAxes(p.u, e.along, p.d - (e.from + half * e.along)), p.r, p.h,
+                              half};
+  const StageResult of_edge = largest_gap(segment, {no_early_exit}, nullptr);
+  const Vec3 n = segment.axes.to_world(of_edge.normal());
+  const double reach = std::max(n.dot(e.from), n.dot(p.b.vertex(e.vertices[1])));
+  const double beyond = std::max(0.0, p.b.support(n) - reach);
+  if (!(of_edge.gap - beyond > best)) return {};
+  return at(of_edge.gap - beyond, n, beyond <= proof_part * p.lengths);
 }
 
 /// Vertices that were tried, each once.
@@ -513,33 +302,11 @@ class Tried {
   std::array<std::uint64_t, Convex::max_vertices / 64 + 1> bits_;
 };
 
-StageResult largest_gap(const InHull& p, EarlyExit exit, double* highest) {
-  Meeting best = cap(p);
+/// Tries all that A's point where the bodies meet leaves open. Out of line: mostly it is not
+/// needed.
+[[gnu::noinline]] StageResult search_open_edges(const InHull& p, EarlyExit exit, Best best,
+                                                double* highest) {
   const auto is_over = [&] { return exit.ends_with(best.found); };
-  if (is_over()) return best.found;
-  best.improve(face(p, best.found.gap));
-  if (is_over()) return best.found;
-  // As deep in each other as this, bodies hardly ever come free where a rim meets an edge.
-  constexpr double deep = 0.5;
-  const auto try_likely = [&](int beyond) {
-    for (int i = 0; i < 3 && depth(best.found.gap) < deep * std::min(p.r, p.h); ++i) {
-      const Meeting next = likely(p, best, beyond);
-      if (!(next.found.gap > best.found.gap)) return false;
-      best = next;
-      if (is_over()) return true;
-    }
-    return false;
-  };
-  if (exit.trusts_proofs) {
-    int beyond = -1;
-    if (best.kind == Kind::face) {
-      const BeyondEdge edge(p, best.feature, point_facing(p, best.found.normal(), best.place));
-      if (is_proven_at_face(p, best.found.gap, edge)) return best.found;
-      beyond = edge.edge;
-    }
-    if (try_likely(beyond)) return best.found;
-  }
-
   const auto open_edges = [&] {
     if (!exit.trusts_proofs) return OpenEdges(p);
     return OpenEdges(p, point_facing(p, best.found.normal(), best.place), best.found.gap);
@@ -551,20 +318,17 @@ StageResult largest_gap(const InHull& p, EarlyExit exit, double* highest) {
     const ConvexTables::Edge& e = p.b.edges[static_cast<std::size_t>(edge)];
     if (may_cross_side(p, e, best.found.gap)) {
       const SeenAlongEdge seen(p, e);
-      const StageResult found = side_and_edge(p, seen, best.found.gap);
-      if (found.gap > best.found.gap) best = {found, Kind::edge, edge, seen.nearest_to_axis()};
+      best.improve(side_and_edge(p, seen, best.found.gap), seen.nearest_to_axis());
     }
     for (int end = 0; end < 2; ++end) {
       const int i = e.vertices[end];
       if (!vertices.is_new(i)) continue;
       const Vec3 &v = p.b.vertex(i), &other = p.b.vertex(e.vertices[1 - end]);
-      const StageResult found = side_or_rim_and_vertex(p, v, other - v, best.found.gap);
-      if (found.gap > best.found.gap) best = {found, Kind::vertex_of_side, i, v};
+      best.improve(side_or_rim_and_vertex(p, v, other - v, best.found.gap), v);
     }
     return !is_over();
   });
   if (!is_any || is_over()) return best.found;
-  if (exit.trusts_proofs && best.kind != Kind::face && try_likely(-1)) return best.found;
   // Here A's point that faces each face excludes most of its edges.
   const OpenEdges left = open_edges();
   int at_face = -1;
@@ -586,6 +350,34 @@ StageResult largest_gap(const InHull& p, EarlyExit exit, double* highest) {
     return !is_over();
   });
   return best.found;
+}
+
+StageResult largest_gap(const InHull& p, EarlyExit exit, double* highest) {
+  const OfFeature of_cap = cap(p);
+  if (exit.ends_with(of_cap.found)) return of_cap.found;
+  const OfFeature of_face = face(p, of_cap.found.gap);
+  if (exit.ends_with(of_face.found)) return of_face.found;
+  const bool is_face = of_face.found.gap > of_cap.found.gap;
+  Best best = is_face
+                  ? Best{of_face.found, p.b.face_middles[static_cast<std::size_t>(of_face.feature)]}
+                  : Best{of_cap.found, p.b.vertex(of_cap.feature)};
+  if (exit.trusts_proofs) {
+    int edge;
+    if (is_face) {
+      const BeyondEdge beyond(p, of_face.feature, point_facing(p, best.found.normal(), best.place));
+      if (is_proven_at_face(p, best.found.gap, beyond)) return best.found;
+      edge = beyond.edge;
+    } else {
+      const Vec3 arm = p.d - best.place, to_axis = arm - arm.dot(p.u) * p.u;
+      edge = highest_edge(p, of_cap.feature, to_axis, best.found.normal());
+    }
+    if (edge >= 0) {
+      const ConvexTables::Edge& e = p.b.edges[static_cast<std::size_t>(edge)];
+      best.improve(edge_alone(p, edge, best.found.gap), e.from);
+      if (exit.ends_with(best.found)) return best.found;
+    }
+  }
+  return search_open_edges(p, exit, best, highest);
 }
 
 CertifiedDistance find_largest(const PosedCylinder& a, const PosedConvex& b, EarlyExit exit) {

@@ -8,6 +8,7 @@
 #include "oracle/hull.hpp"
 #include "oracle/truth.hpp"
 #include "reference/contact_of.hpp"
+#include "reference/random_hulls_test.hpp"
 #include "reference/rounding_made_test.hpp"
 
 namespace touchstone {
@@ -138,6 +139,26 @@ TEST(EarlyExits, AreRightOfRimsAcrossAnEdge) {
                                                                random.uniform(-1, 1) * along));
     }
     expect_no_short_cut_is_wrong(turned(random, a, Vec3::Zero(), Vec3::UnitZ(), points), i);
+  }
+}
+
+// Along the best normal of one edge another vertex is farther, or less far, by a hair: the edge's
+// distance is the hull's only where it is less far.
+TEST(EarlyExits, AreRightOfVerticesThatExceedAnEdgeByAHair) {
+  for (std::uint64_t i = 0; i < 50 * count(); ++i) {
+    Random random(i);
+    const Cylinder a(random.power_of_ten(-1, 0), random.power_of_ten(-1, 0));
+    const Capsule edge(random.power_of_ten(-9, -3), random.power_of_ten(-1, 0));
+    const Vec3 along = random.direction(), end = edge.half_length() * along;
+    const Pose pose(Vec3::Zero(), turn_between(Vec3::UnitZ(), along));
+    Configuration c{a, Pose(random.direction(), random.turn()), edge, pose};
+    c = moved_to_depth(c, (random.toss() ? 1 : -1) * random.power_of_ten(-4, -1));
+    const Vec3 n = signed_distance(c).normal, beside = random.direction();
+    const double hair = random.sign() * random.power_of_ten(-14, -3);
+    const Vec3 from = n.dot(end) > 0 ? end : Vec3(-end);
+    const Vec3 vertex = from + beside - (n.dot(beside) - hair) * n;
+    c.b = oracle::convex_hull({-end, end, vertex}), c.pose_b = Pose();
+    expect_no_short_cut_is_wrong(c, i);
   }
 }
 
