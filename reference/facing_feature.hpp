@@ -50,9 +50,9 @@ struct FacingFeature {
 inline double facing_part(double half_length, double sine, double slack, double max_sine = 0.1,
                           double all_up_to = 1) {
   constexpr double none_from = 1.1, same = 1e-6;
-  const double lean = std::abs(sine), rise = 0.2 * half_length * lean / slack;
-  const double steep = none_from * lean / max_sine;
-  const double most = std::max(rise, steep);
+  const double lean = std::abs(sine), raised = 0.2 * half_length * lean;
+  if (raised >= none_from * slack) return 0;  // as most poses are, before anything is divided
+  const double most = std::max(raised / slack, none_from * lean / max_sine);
   if (most <= all_up_to) [[likely]]
     return 1;
   const double part = (none_from - most) / (none_from - all_up_to);
