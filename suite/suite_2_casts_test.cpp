@@ -121,7 +121,9 @@ const CastFault cast_faults[] = {
     {"wrong-normal", Required::required, [](Cast& a, const CastDatum&) { a.normal = -a.normal; }},
     {"wrong-normal", Required::required, [](Cast& a, const CastDatum&) { a.normal *= 1.01; }},
     {"wrong-normal", Required::required,
-     [](Cast& a, const CastDatum&) { a.normal = a.normal.unitOrthogonal(); }},
+     [](Cast& a, const CastDatum&) {
+       a.normal = (a.normal + a.normal.unitOrthogonal() / 2).normalized();
+     }},
     {"not-finite", Required::required,
      [](Cast& a, const CastDatum&) { a.status = CastStatus::touch, a.fraction = NAN; }}};
 
