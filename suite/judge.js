@@ -15,6 +15,7 @@ const castColumns = (bodies + `sweep_x sweep_y sweep_z outcome fraction fraction
 touch tolerance min_fraction max_fraction ties normal vertices_b
 float_touch float_tolerance float_min_fraction float_max_fraction about`).split(/\s/);
 const texts = 'id group shape_b contact ties normal patch_kind outcome touch float_touch vertices_b about'.split(' ');
+const statusesOf = ['"contact", "none"', '"touch", "from-start", "never"'];  // of answers to contacts and to casts
 function textOf(file) {
   try {
     const bytes = fs.readFileSync(file);
@@ -62,7 +63,7 @@ function readAnswers(file, cases) {  // cases by id; throws an Error with the li
     points: [v => Array.isArray(v) && v.every(point), '[{"position": [x, y, z], "depth": d}, …]']};
   const casts = [...cases.values()].some(c => 'outcome' in c), {normal} = kinds;
   const kindsOf = casts ? {touch: {fraction: [number, 'a number'], normal}, 'from-start': {normal}} : {contact: kinds};
-  const statuses = casts ? '"touch", "from-start", "never"' : '"contact", "none"';
+  const [statuses, others] = casts ? [...statusesOf].reverse() : statusesOf;
   const text = textOf(file).replace(/^\ufeff/, ''), answers = [];  // some editors write a byte order mark
   for (const [i, row] of text.split('\n').entries()) {
     const wrong = what => Error(`${file}:${i + 1}: ${what}`);
@@ -74,6 +75,7 @@ function readAnswers(file, cases) {  // cases by id; throws an Error with the li
     if (!('id' in answer)) throw wrong('id is missing: must be that of a configuration');
     if (!cases.has(answer.id)) throw wrong(`id is ${JSON.stringify(answer.id)}: must be that of a configuration of the suite`);
     if (typeof answer.status !== 'string') throw wrong(`status is missing: must be ${statuses} or why there is no answer`);
+    if (others.split(', ').includes(`"${answer.status}"`)) throw wrong(`status is "${answer.status}": must be ${statuses} or why there is no answer`);
     for (const [name, [isRight, rightForm]] of Object.entries(kindsOf[answer.status] ?? {})) {
       if (!(name in answer)) throw wrong(`${name} is missing: must be ${rightForm}`);
       if (!isRight(answer[name])) throw wrong(`${name} is not usable: must be ${rightForm}`);
@@ -114,6 +116,7 @@ function castVerdict(c, answer) {
   if (![t, ...n].every(Number.isFinite)) return 'not-finite';
   if (t < c.min_fraction || t > c.max_fraction)
     return c.outcome === 'never' ? 'made-up' : t < c.min_fraction ? 'early' : 'late';
+  if (length === 0) return 'agree';  // a routine that has no normals
   if (!(abs(length - 1) <= 1e-6)) return 'wrong-normal';
   const there = {...c};
   for (const e of 'xyz') there[`position_a_${e}`] += t * c[`sweep_${e}`];

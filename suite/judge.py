@@ -18,6 +18,7 @@ CAST_COLUMNS = (BODIES + """sweep_x sweep_y sweep_z outcome fraction fraction_lo
 touch tolerance min_fraction max_fraction ties normal vertices_b
 float_touch float_tolerance float_min_fraction float_max_fraction about""").split()
 TEXTS = "id group shape_b contact ties normal patch_kind outcome touch float_touch vertices_b about".split()
+STATUSES = ('"contact", "none"', '"touch", "from-start", "never"')  # of answers to contacts and to casts
 def text_of(file):
     try:
         with (gzip.open if str(file).endswith(".gz") else open)(file, "rb") as stream: return stream.read().decode()
@@ -54,7 +55,7 @@ def read_answers(file, cases):  # by id; raises ValueError with the line and fie
     casts = any("outcome" in case for case in cases.values())
     turned = {"normal": kinds["normal"]}
     kinds_of = {"touch": {"fraction": (number, "a number"), **turned}, "from-start": turned} if casts else {"contact": kinds}
-    statuses = '"touch", "from-start", "never"' if casts else '"contact", "none"'
+    statuses, others = STATUSES[::-1] if casts else STATUSES
     text = text_of(file).removeprefix("\ufeff")  # a byte order mark, which some editors write
     answers = []
     for line, row in enumerate(text.split("\n"), 1):
@@ -67,6 +68,7 @@ def read_answers(file, cases):  # by id; raises ValueError with the line and fie
         if "id" not in answer: raise wrong("id is missing: must be that of a configuration")
         if not isinstance(answer["id"], str) or answer["id"] not in cases: raise wrong(f'id is {json.dumps(answer["id"])}: must be that of a configuration of the suite')
         if not isinstance(answer.get("status"), str): raise wrong(f"status is missing: must be {statuses} or why there is no answer")
+        if json.dumps(answer["status"]) in others.split(", "): raise wrong(f'status is "{answer["status"]}": must be {statuses} or why there is no answer')
         for name, (is_right, right_form) in kinds_of.get(answer["status"], {}).items():
             if name not in answer: raise wrong(f"{name} is missing: must be {right_form}")
             if not is_right(answer[name]): raise wrong(f"{name} is not usable: must be {right_form}")
@@ -105,6 +107,7 @@ def cast_verdict(case, answer):
     if not all(map(isfinite, [t, *n])): return "not-finite"
     if not case["min_fraction"] <= t <= case["max_fraction"]:
         return "made-up" if case["outcome"] == "never" else "early" if t < case["min_fraction"] else "late"
+    if not any(n): return "agree"  # a routine that has no normals
     if abs(hypot(*n) - 1) > 1e-6: return "wrong-normal"
     there = {**case, **{f"position_a_{e}": case[f"position_a_{e}"] + t * case[f"sweep_{e}"] for e in "xyz"}}
     least = -max(case["start_depth"], case["tolerance"]) - case["tolerance"]

@@ -156,6 +156,8 @@ TEST(Readers, RefuseAnswersThatAreNoneAndNameTheLineAndTheField) {
        ":2: points is not usable"},
       {cast + "3}", ":1: status is missing: must be \"touch\", \"from-start\", \"never\" or",
        "2-casts"},
+      {cast + R"("none"})", ":1: status is \"none\": must be \"touch\", ", "2-casts"},
+      {id + R"(, "status": "never"})", ":1: status is \"never\": must be \"contact\", "},
       {cast + R"("touch"})", ":1: fraction is missing: must be a number", "2-casts"},
       {cast + R"("touch", "fraction": "half", "normal": [0, 0, 1]})",
        ":1: fraction is not usable: must be a number", "2-casts"},

@@ -124,6 +124,7 @@ const CastFault cast_faults[] = {
      [](Cast& a, const CastDatum&) {
        a.normal = (a.normal + a.normal.unitOrthogonal() / 2).normalized();
      }},
+    {"agree", Required::required, [](Cast& a, const CastDatum&) { a.normal.setZero(); }},
     {"not-finite", Required::required,
      [](Cast& a, const CastDatum&) { a.status = CastStatus::touch, a.fraction = NAN; }}};
 
