@@ -95,10 +95,13 @@ const CastKind cast_kinds[] = {
      [](const CastTarget& b) {
        return fall(b, 0.5, {0, 0, -0.49609375});
      }},
-    {"leaves", everyday,
-     "A starts 1/1024 m above B and moves away. A margin makes a touch at the start of it.",
+    {"onto-leaning", everyday,
+     "B leans and A falls upon it. An edge or a rim of the one meets a face; an edge or a rim of "
+     "the other: the normal need be no axis of either.",
      [](const CastTarget& b) {
-       return fall(b, 0x1p-10, {0, 0, 1});
+       CastQuestion cast = cast_of(b, can, upright, {0.125, -0.0625, 2.5}, {0, 0, -4});
+       cast.configuration.pose_b = Pose(Vec3::Zero(), {4, 1, 2, 0});
+       return cast;
      }},
     {"beside", everyday,
      "A falls past B at a distance of 1/4 m. Bounding boxes and spheres overlap on the way; the "
@@ -127,15 +130,15 @@ const CastKind cast_kinds[] = {
      "miss it.",
      [](const CastTarget& b) { return graze(b, -hair); }},
     {"graze-touch", degenerate,
-     "A moves across and touches B without overlapping it. In time this is a double root: the "
-     "fraction is known to the root of the precision; never is right as well.",
+     "A moves across and touches B without overlapping it. On a round B this is a double root in "
+     "time: the fraction is known to the root of the precision; never is right as well.",
      [](const CastTarget& b) { return graze(b, 0); }, true},
     {"graze-miss", degenerate,
      "A moves across and leaves 1/4096 m free. A margin or a loose tolerance makes a touch of it.",
      [](const CastTarget& b) { return graze(b, hair); }},
     {"side-hit", degenerate,
-     "A falls along the side of B and its rim catches 1/4096 m of it. The first touch is on top "
-     "with a normal up; the least overlap afterwards is sideways.",
+     "A falls along the side of B and its rim catches 1/4096 m of it. On a flat top the first "
+     "touch has a normal up; the least overlap afterwards is sideways.",
      [](const CastTarget& b) { return pass(b, -hair); }, true},
     {"side-touch", degenerate,
      "A falls along the side of B and touches it without overlapping it. Engines differ here by "
@@ -154,8 +157,8 @@ const CastKind cast_kinds[] = {
        return fall(b, 0, {0, 0, -1});
      }},
     {"near-parallel", degenerate,
-     "A cylinder that lies but for 0.03 degrees falls on its side. One end touches first; what "
-     "takes it for level lands late there.",
+     "A cylinder that lies but for 0.03 degrees falls on its side. On a flat B one end touches "
+     "first; what takes it for level lands late there.",
      [](const CastTarget& b) {
        return cast_of(b, can, {1, 0, 1 - 0x1p-11, 0}, {0, 0, b.top + 0.75}, {0, 0, -1});
      }},
