@@ -8,6 +8,7 @@ order of an adapter cannot pass."""
 
 import contextlib
 import functools
+import json
 import math
 import os
 import subprocess
@@ -363,6 +364,15 @@ class KnownFailures(unittest.TestCase):
             self.assertAlmostEqual(fraction, 1 / 3, delta=1e-4)
             self.assertAlmostEqual(normal[2], up, delta=1e-3)
         child.release([0])
+
+    def test_a_fast_can_passes_through_a_wall_of_jolt_unless_it_is_cast(self):
+        """The experiment fast-can, which touches the wall after 1.24 m."""
+        printed = subprocess.run(["node", HERE.parent / "testing/jolt_fast_can.mjs"], check=True,
+                                 capture_output=True, text=True).stdout
+        way, cast_way = json.loads(printed)
+        self.assertAlmostEqual(way, 36, delta=1e-3)
+        may_overlap = 0.25 * 0.05  # LinearCastMaxPenetration, of the inner radius
+        self.assertAlmostEqual(cast_way, 1.24 + may_overlap, delta=1e-4)
 
     def test_only_some_know_a_flat_body(self):
         """A cylinder that stands 0.05 deep in a triangle, and one beside it, within the box about it."""
