@@ -1,16 +1,10 @@
 #include <algorithm>
 #include <array>
-#include <bit>
-#include <boost/crc.hpp>
 #include <cmath>
-#include <cstdint>
 #include <cstring>
 #include <fmt/format.h>
-#include <limits>
-#include <map>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <variant>
 #include <vector>
 
@@ -21,67 +15,13 @@
 #include "properties/files/answer_json.hpp"
 #include "properties/files/configuration_json.hpp"
 #include "reference/invalid_input.hpp"
+#include "reports/test_data/npz_file.hpp"
 #include "reports/test_data/small_numbers.hpp"
 #include "reports/test_data/suite_2_casts.hpp"
 #include "reports/test_data/test_data.hpp"
 
 namespace touchstone {
 namespace {
-
-static_assert(std::endian::native == std::endian::little);  // as all numbers of both formats
-
-template <class... Numbers>
-std::string little_endian(Numbers... numbers) {
-  std::string bytes;
-  (bytes.append(reinterpret_cast<const char*>(&numbers), sizeof numbers), ...);
-  return bytes;
-}
-
-using Values =
-    std::variant<std::vector<std::string>, std::vector<std::int64_t>, std::vector<double>>;
-
-/// The type and the bytes of an array's values.
-struct Data {
-  std::string type, bytes;
-  std::size_t count;
-};
-
-template <class Number>
-Data data_of(const std::vector<Number>& values, const char* type) {
-  const auto* first = reinterpret_cast<const char*>(values.data());
-  return {type, std::string(first, values.size() * sizeof(Number)), values.size()};
-}
-
-struct ToData {
-  Data operator()(const std::vector<double>& values) const { return data_of(values, "<f8"); }
-  Data operator()(const std::vector<std::int64_t>& values) const { return data_of(values, "<i8"); }
-  /// Four bytes a character, all texts as long as the longest.
-  Data operator()(const std::vector<std::string>& values) const {
-    std::size_t length = 1;
-    for (const std::string& text : values) length = std::max(length, text.size());
-    std::string bytes;
-    for (const std::string& text : values) {
-      for (std::size_t i = 0; i < length; ++i) {
-        const char c = i < text.size() ? text[i] : '\0';
-        bytes += {c, '\0', '\0', '\0'};
-      }
-    }
-    return {fmt::format("<U{}", length), std::move(bytes), values.size()};
-  }
-};
-
-/// What the local header and the directory say alike of a file that is stored as it is: version,
-/// flags, method, time and date (1 January 1980), checksum, sizes, lengths of the name and of what
-/// follows it.
-std::string description(const std::string& name, std::string_view content) {
-  boost::crc_32_type checksum;
-  checksum.process_bytes(content.data(), content.size());
-  const auto size = static_cast<std::uint32_t>(content.size());
-  constexpr std::uint16_t version = 20, flags = 0, stored = 0, time = 0, date = 0x21, extra = 0;
-  return little_endian(version, flags, stored, time, date,
-                       static_cast<std::uint32_t>(checksum.checksum()), size, size,
-                       static_cast<std::uint16_t>(name.size()), extra);
-}
 
 using nlohmann::json;
 
@@ -319,92 +259,6 @@ CsvRow row_of(const CastDatum& d) {
   put_limits("float_", d.float_limits, row);
   row.text("about", d.about);
   return row;
-}
-
-/// NumPy's file of named arrays, which numpy.load reads: an archive in the ZIP format, not
-/// compressed, of .npy files (numpy.lib.format, version 1.0; PKWARE's APPNOTE, 4.3). Its arrays
-/// grow by one entry with each datum; those of lists by one for each normal, where `first_normal`
-/// says which belong to which datum.
-class NpzFile {
- public:
-  void text(const std::string& name, const std::string& value) { texts(name, {value}); }
-  void numbers(const std::string& name, const std::string& letters,
-               const std::vector<double>& values) {
-    vectors(name, std::max<std::size_t>(1, letters.size()), values);
-  }
-  void lists_of(std::size_t count) {
-    auto& first = array<std::int64_t>("first_normal");
-    if (first.empty()) first.push_back(0);
-    first.push_back(first.back() + static_cast<std::int64_t>(count));
-  }
-  /// ASCII.
-  void texts(const std::string& name, const std::vector<std::string>& values) {
-    auto& all = array<std::string>(name);
-    all.insert(all.end(), values.begin(), values.end());
-  }
-  void vectors(const std::string& name, std::size_t width, const std::vector<double>& values) {
-    auto& all = array<double>(name, width);
-    all.insert(all.end(), values.begin(), values.end());
-  }
-
-  /// The whole file. Throws InvalidInput (field "--count") beyond the 4 GiB of the ZIP format.
-  std::string bytes() const;
-
- private:
-  /// One dimension if `width` is 1, otherwise rows of so many values.
-  struct Array {
-    Values values;
-    std::size_t width;
-  };
-  /// The array of that name, made at the first use.
-  template <class Value>
-  std::vector<Value>& array(const std::string& name, std::size_t width = 1) {
-    auto [entry, is_new] = arrays_.try_emplace(name, Array{std::vector<Value>(), width});
-    return std::get<std::vector<Value>>(entry->second.values);
-  }
-  static std::string npy(const Array& array);
-
-  std::map<std::string, Array> arrays_;
-};
-
-std::string NpzFile::npy(const Array& array) {
-  const auto [type, bytes, count] = std::visit(ToData(), array.values);
-  const std::string shape = array.width == 1
-                                ? fmt::format("{},", count)
-                                : fmt::format("{}, {}", count / array.width, array.width);
-  std::string header =
-      fmt::format("{{'descr': '{}', 'fortran_order': False, 'shape': ({}), }}", type, shape);
-  // Blanks and a line feed, so that the values begin at a multiple of 64 bytes.
-  constexpr std::size_t before = 10, alignment = 64;
-  header.append(alignment - 1 - (before + header.size()) % alignment, ' ');
-  header += '\n';
-  return "\x93NUMPY\x01" + std::string(1, '\0') +
-         little_endian(static_cast<std::uint16_t>(header.size())) + header + bytes;
-}
-
-std::string NpzFile::bytes() const {
-  constexpr std::size_t max_size = std::numeric_limits<std::uint32_t>::max();
-  std::string files, directory;
-  for (const auto& [array_name, array] : arrays_) {
-    const std::string name = array_name + ".npy", content = npy(array);
-    if (files.size() + content.size() + 4096 + directory.size() > max_size) {
-      throw InvalidInput("--count", "more than 4 GiB of arrays",
-                         "must be smaller for this format; csv and jsonl have no bound");
-    }
-    const std::string described = description(name, content);
-    constexpr std::uint16_t made_by = 20, no_comment = 0, disk = 0, attributes = 0;
-    constexpr std::uint32_t external_attributes = 0;
-    directory += "PK\x01\x02" + little_endian(made_by) + described +
-                 little_endian(no_comment, disk, attributes, external_attributes,
-                               static_cast<std::uint32_t>(files.size())) +
-                 name;
-    files += "PK\x03\x04" + described + name + content;
-  }
-  const auto count = static_cast<std::uint16_t>(arrays_.size());
-  constexpr std::uint16_t disk = 0, no_comment = 0;
-  return files + directory + "PK\x05\x06" +
-         little_endian(disk, disk, count, count, static_cast<std::uint32_t>(directory.size()),
-                       static_cast<std::uint32_t>(files.size()), no_comment);
 }
 
 class NumPyWriter : public TestDataWriter {
