@@ -56,7 +56,7 @@ def read_answers(file, cases):  # by id; raises ValueError with the line and fie
     turned = {"normal": kinds["normal"]}
     kinds_of = {"touch": {"fraction": (number, "a number"), **turned}, "from-start": turned} if casts else {"contact": kinds}
     statuses, others = STATUSES[::-1] if casts else STATUSES
-    text = text_of(file).removeprefix("\ufeff")  # a byte order mark, which some editors write
+    text = text_of(file).lstrip("\ufeff")  # a byte order mark, which some editors write
     answers = []
     for line, row in enumerate(text.split("\n"), 1):
         def wrong(what): return ValueError(f"{file}:{line}: {what}")
