@@ -12,6 +12,7 @@
 
 #include "properties/files/own_folder_test.hpp"
 #include "properties/named.hpp"
+#include "suite/touchstone_suite.hpp"
 
 // What the tests of the suites do with files and with the readers that are programs.
 
@@ -51,6 +52,34 @@ inline nlohmann::json number_json(double x) {
   return std::isfinite(x) ? nlohmann::json(x) : nlohmann::json(x > 0 ? "inf" : "-inf");
 }
 
+inline nlohmann::json numbers_json(const touchstone_suite::Vector& v) {
+  auto numbers = nlohmann::json::array();
+  for (const double x : v) numbers.push_back(number_json(x));
+  return numbers;
+}
+
+/// A line of a file of answers.
+inline std::string line_of(const std::string& id, const touchstone_suite::Answer& a) {
+  nlohmann::json line = {{"id", id}, {"status", a.status}};
+  if (a.status == "contact") {
+    line["signed_distance"] = number_json(a.signed_distance);
+    line["normal"] = numbers_json(a.normal);
+    line["points"] = nlohmann::json::array();
+    for (const auto& p : a.points) {
+      line["points"].push_back(
+          {{"position", numbers_json({p[0], p[1], p[2]})}, {"depth", number_json(p[3])}});
+    }
+  }
+  return line.dump() + '\n';
+}
+inline std::string line_of(const std::string& id, const touchstone_suite::CastAnswer& a) {
+  const nlohmann::json line = {{"id", id},
+                               {"status", a.status},
+                               {"fraction", number_json(a.fraction)},
+                               {"normal", numbers_json(a.normal)}};
+  return line.dump() + '\n';
+}
+
 /// Of each judge the verdicts on answers: second words of lines such as "cylinder-box/rim-face/1/0
 /// agree".
 inline std::vector<std::vector<std::string>> verdicts_of_judges(const std::string& suite,
@@ -70,6 +99,15 @@ inline std::vector<std::vector<std::string>> verdicts_of_judges(const std::strin
     }
   }
   return result;
+}
+
+/// Both judges say the one of all answers in double precision, and "agree" in single.
+inline void expect_right_in_float_alone(const std::string& suite, const std::string& answers,
+                                        const std::string& in_double) {
+  using testing::Each;
+  EXPECT_THAT(verdicts_of_judges(suite_file(suite), answers), Each(Each(in_double)));
+  EXPECT_THAT(verdicts_of_judges("--float " + suite_file(suite), answers),
+              Each(Each(std::string("agree"))));
 }
 
 }  // namespace touchstone
