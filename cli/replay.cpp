@@ -24,23 +24,22 @@ struct ReplayArguments {
   std::uint64_t cells = 4000;
 };
 
-/// Of a cast. Throws InvalidInput if A turns, too.
-std::optional<Vec3> translation_of(const Subject& given, const std::string& asked) {
-  if (!given.sweep) return std::nullopt;
-  if (given.sweep->turns()) {
-    throw InvalidInput("spin", "given", "must be left out: " + asked + " knows no turns");
-  }
-  return given.sweep->translation();
-}
-
 std::string certificate_of(const Subject& given, const ReplayArguments& options) {
   const Configuration& c = given.configuration;
   if (!given.sweep) {
     const audit::Budget budget{options.width, static_cast<int>(options.cells)};
     return certificate_json(audit::certify(c, budget), c);
   }
-  const Vec3 sweep = *translation_of(given, "--certify");
-  return certificate_json(audit::certify_cast(c, sweep), c, sweep);
+  return certificate_json(audit::certify_cast(c, *given.sweep), c, *given.sweep);
+}
+
+/// Of a cast. Throws InvalidInput if A turns, too, which no engine is asked.
+std::optional<Vec3> asked_sweep(const Subject& given) {
+  if (!given.sweep) return std::nullopt;
+  if (given.sweep->turns()) {
+    throw InvalidInput("spin", "given", "must be left out: --emit knows no turns");
+  }
+  return given.sweep->translation();
 }
 
 int run_replay(const ReplayArguments& options, bool emits) {
@@ -53,8 +52,8 @@ int run_replay(const ReplayArguments& options, bool emits) {
   }
   if (emits) {
     const std::string asked = given.name + (given.id.empty() ? "" : ", id " + given.id);
-    print(reproducer(options.engine, options.language, given.configuration,
-                     translation_of(given, "--emit"), asked, bar, options.candidates.limits()));
+    print(reproducer(options.engine, options.language, given.configuration, asked_sweep(given),
+                     asked, bar, options.candidates.limits()));
     return 0;
   }
   refuse_to_replace(options.input, options.html, "--html");

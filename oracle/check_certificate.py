@@ -2,9 +2,9 @@
 """Checks certificates of `touchstone replay --certify`: check_certificate.py FILE...
 
 A certificate proves lo <= signed distance <= hi of two bodies, or how far one may move before it
-comes next to the other; oracle/truth.md has the format, the proof and the limits. All arithmetic is rational, and nothing is shared with the program that
-wrote the certificate. Prints what each file proves, or why it is rejected. Exit code: 0 all are
-accepted, 1 one is rejected, 2 one cannot be read.
+comes next to the other; oracle/truth.md has the format, the proof and the limits. All arithmetic is
+rational, and nothing is shared with the program that wrote the certificate. Prints what each file
+proves, or why it is rejected. Exit code: 0 all are accepted, 1 one is rejected, 2 one cannot be read.
 """
 
 import json
@@ -23,6 +23,8 @@ MAX_LEVEL = 1000  # quarterings from a face of the cube down to a cell
 MAX_VERTICES = 4096
 MAX_PARTS = 1000  # of a sweep
 ROOT_BITS = 600  # roots are bounded to a relative 2^-600
+MAX_SPIN = 100  # radians
+TURN_ERROR = Fraction(1, 2**100)  # of a turned quaternion, relative
 
 FRACTION = re.compile(rf"(-?[0-9]{{1,{MAX_DIGITS}}})(?:/([1-9][0-9]{{0,{MAX_DIGITS - 1}}}))?")
 CELL = re.compile(rf"[0-5][0-3]{{0,{MAX_LEVEL}}}")
@@ -36,7 +38,7 @@ SHAPES = {"cylinder": ("radius", "half_length"), "capsule": ("radius", "half_len
           "sphere": ("radius",), "box": ("half_extents",), "plane": ("normal", "displacement"),
           "convex": ("vertices",)}
 ROUNDED = ("cylinder", "box", "convex")  # may have a rounding
-LENGTHS = {"half_extents": 3, "normal": 3, "position": 3, "sweep": 3, "orientation": 4}  # the rest are numbers
+LENGTHS = {"half_extents": 3, "normal": 3, "position": 3, "sweep": 3, "spin": 3, "orientation": 4}  # the rest are numbers
 IDENTITY = {"position": [0.0, 0.0, 0.0], "orientation": [1.0, 0.0, 0.0, 0.0]}
 
 
@@ -393,6 +395,66 @@ def bodies(configuration, n):
     return (a, b, n) if a.kind == "cylinder" else (b, a, [-x for x in n])
 
 
+def turned(q, spin, t):
+    """The quaternion q after the turn by t * spin, to TURN_ERROR of its length: by the series of cosine
+    and sine of half the angle, whose terms alternate. They are rounded by 2^-600 each, and none is
+    larger than e^50."""
+    one = 1 << ROOT_BITS
+    square = int(t * t * dot(spin, spin) / 4 * one)  # of half the angle
+    cosine = sine = k = 0
+    term = one
+    while term > one * TURN_ERROR / 8 or k * k * one < square:
+        sign = -1 if k % 2 else 1
+        cosine, sine, k = cosine + sign * term, sine + sign * term // (2 * k + 1), k + 1
+        term = term * square // (one * (2 * k - 1) * 2 * k)
+    w, v = Fraction(cosine, one), [t * x / 2 * Fraction(sine, one) for x in spin]
+    along, across = dot(v, q[1:]), cross(v, q[1:])
+    return [w * q[0] - along, *(w * x + q[0] * y + z for x, y, z in zip(q[1:], v, across))]
+
+
+class Motion:
+    """Of body a, by t times a sweep and a spin about its centre."""
+
+    def __init__(self, configuration, sweep, spin):
+        self.configuration, self.start = configuration, configuration["pose_a"]
+        self.sweep, self.spin = sweep, spin
+        body = Body("a", configuration)
+        require(not any(spin) or body.kind == "cylinder",
+                "configuration.a.shape", body.kind, "cylinder, of a body with a spin")
+        require(dot(spin, spin) <= MAX_SPIN**2, f"configuration.spin is longer than {MAX_SPIN}")
+        self.slack = Fraction(0)
+        if any(spin):
+            sizes = [body.radius + body.rounding, body.half_length + body.rounding]
+            self.reach = root(dot(sizes, sizes), above=True)  # of A's farthest point from its centre
+            axis = cross(spin, body.columns[2])
+            self.axis_turns = root(dot(axis, axis), above=True) / body.square
+            # Quaternions that differ by e of their length differ by an angle of at most 5 e.
+            self.slack = 5 * TURN_ERROR * self.reach
+
+    def at(self, t, normal):
+        """As `bodies`. Those of A's points that turn are off by no more than the slack."""
+        self.configuration["pose_a"] = {
+            "position": [x + t * w for x, w in zip(self.start["position"], self.sweep)],
+            "orientation": turned(self.start["orientation"], self.spin, t) if any(self.spin)
+            else self.start["orientation"]}
+        return bodies(self.configuration, normal)
+
+    def check_apart(self, t, until, normal):
+        """Is the gap along the normal positive from t to `until`? It is linear in between, or with
+        a spin falls no faster than A's farthest point moves."""
+        if not any(self.spin):
+            for end in (t, until):
+                a, b, n = self.at(end, normal)
+                check_lower(a, b, n, a.rounding + b.rounding)
+            return
+        a, b, n = self.at(t, normal)
+        require(any(n), "normal is the zero vector")
+        turn, goes = cross(self.spin, n), dot(self.sweep, n)
+        turns = min(root(dot(turn, turn), above=True) / root(dot(n, n)), self.axis_turns)
+        falls = max(self.reach * turns - goes / root(dot(n, n), above=goes > 0), 0)
+        check_lower(a, b, n, a.rounding + b.rounding + self.slack + falls * (until - t))
+
+
 def check_cast(certificate):
     """How far body a moves, as a part of its sweep, without overlapping b, and how near it is to b
     there; None for the whole sweep. Raises Rejected."""
@@ -402,10 +464,10 @@ def check_cast(certificate):
     check_schema(certificate, "touchstone-cast-certificate-1")
     given = certificate["configuration"]
     require(isinstance(given, dict) and "sweep" in given, "configuration.sweep is missing")
-    sweep = doubles(given, "configuration", ("sweep",))["sweep"]
-    configuration = read_configuration({k: x for k, x in given.items() if k != "sweep"})
-    require_same(certificate["exact"], {**configuration, "sweep": sweep}, "exact")
-    start = configuration["pose_a"]["position"]
+    moves = doubles(given, "configuration", [name for name in ("sweep", "spin") if name in given])
+    configuration = read_configuration({k: x for k, x in given.items() if k not in moves})
+    require_same(certificate["exact"], {**configuration, **moves}, "exact")
+    motion = Motion(configuration, moves["sweep"], moves.get("spin", [Fraction(0)] * 3))
     parts = certificate["apart"]
     require(isinstance(parts, list) and 0 < len(parts) <= MAX_PARTS,
             "apart", parts, f"an array of 1 to {MAX_PARTS} parts")
@@ -415,18 +477,15 @@ def check_cast(certificate):
         until = rational(part["until"], f"apart[{i}].until")
         require(t <= until <= 1, f"apart[{i}].until", part["until"], "in order, from 0 to 1")
         normal = vector(part["normal"], f"apart[{i}].normal")
-        for end in (t, until):  # the gap is linear in between
-            position = [x + end * w for x, w in zip(start, sweep)]
-            configuration["pose_a"] = {**configuration["pose_a"], "position": position}
-            a, b, n = bodies(configuration, normal)
-            check_lower(a, b, n, a.rounding + b.rounding)
+        motion.check_apart(t, until, normal)
         t = until
     require(is_near or t == 1, "pair is missing, and the parts end before 1")
     if not is_near:
         return t, None
     distance = rational(certificate["distance"], "distance")
-    require(distance >= 0, "distance is negative")
-    check_pair(a, b, n, distance + a.rounding + b.rounding, certificate["pair"])
+    require(distance >= motion.slack, "distance is negative, or too small to tell of a spin")
+    a, b, n = motion.at(t, normal)
+    check_pair(a, b, n, distance - motion.slack + a.rounding + b.rounding, certificate["pair"])
     return t, distance
 
 

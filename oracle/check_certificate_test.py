@@ -14,7 +14,7 @@ import tempfile
 import time
 import unittest
 from fractions import Fraction
-from math import isqrt
+from math import cos, isqrt, pi, sin, sqrt
 
 sys.dont_write_bytecode = True
 import check_certificate as checker  # noqa: E402
@@ -99,6 +99,19 @@ def let_down():
             "apart": [{"until": "1/8", "normal": ["0", "3", "4"]},
                       {"until": "1/2", "normal": ["0", "0", "2"]}],
             "pair": {"a": ["0", "0", "-1"], "b": ["0", "0", "2"]}, "distance": "0"}
+
+
+def turning():
+    """A coin of 1 m radius that turns by one radian about the x axis, towards which its rim comes down
+    while its centre stays 2 m above a half-space."""
+    value = certificate(cylinder(), pose([0.0, 0.0, 2.0]), {"shape": "plane", "normal": [0.0, 0.0, 1.0], "displacement": 0.0},
+                        pose([0.0, 0.0, 0.0]))
+    for form, sizes, sweep, spin in (("configuration", (1.0, 0.125), [0.0, 0.0, 0.0], [1.0, 0.0, 0.0]),
+                                     ("exact", ("1", "1/8"), ["0", "0", "0"], ["1", "0", "0"])):
+        value[form]["a"].update(radius=sizes[0], half_length=sizes[1])
+        value[form]["sweep"], value[form]["spin"] = sweep, spin
+    return {"schema": "touchstone-cast-certificate-1", "configuration": value["configuration"],
+            "exact": value["exact"], "apart": [{"until": "1", "normal": ["0", "0", "1"]}]}
 
 
 def split(entry):
@@ -560,6 +573,34 @@ class CastProof(CheckerTest):
         rounded["pair"]["a"] = ["0", "0", "-3/4"]  # of the core
         self.assertRegex(checker.verdict(text(rounded))[1], "^accepted: free for 0.5 of its sweep, then 0 m apart")
         self.assert_rejected(changed(rounded, ("apart", 1, "until"), "9/16"), "gap along the normal")
+
+    def test_with_a_spin_a_normal_holds_as_long_as_no_point_can_come_so_far(self):
+        self.assertEqual(checker.verdict(text(turning())), (True, "accepted: free for 1 of its sweep"))
+        # 1.875 m are left at the start, and the farthest point is 1.0078 m from the centre.
+        nearer = [changed(turning(), ("configuration", "spin", 0), 1.75), changed(turning(), ("configuration", "spin", 0), 2.0)]
+        for value, spin in zip(nearer, ("7/4", "2")):
+            value["exact"]["spin"][0] = spin
+        self.assert_accepted(nearer[0])
+        self.assert_rejected(nearer[1], "gap along the normal")
+        halves = changed(nearer[1], ("apart",), [{"until": half, "normal": ["0", "0", "1"]} for half in ("1/2", "1")])
+        self.assert_accepted(halves)  # after one radian 1.09 m are left
+        self.assert_rejected(changed(halves, ("apart", 0, "until"), "19/20"), "gap along the normal")
+        self.assert_rejected(changed(turning(), ("exact", "spin", 1), "1"), "exact.spin")
+        upright = changed(changed(turning(), ("configuration", "spin"), [0.0, 0.0, 99.0]), ("exact", "spin"), ["0", "0", "99"])
+        self.assert_accepted(upright)  # its axis stays where it is
+        self.assert_rejected(changed(changed(upright, ("configuration", "spin", 2), 101.0), ("exact", "spin", 2), "101"), "longer than 100")
+
+    def test_a_turn_is_that_of_trigonometry(self):
+        half = [sqrt(0.5), 0, sqrt(0.5), 0]  # about y by a right angle
+        for t, angle in ((0, 0), (0.25, 0.75), (1, 3), (0.5, 1.5)):
+            q = checker.turned([Fraction(1), Fraction(0), Fraction(0), Fraction(0)], [Fraction(3), Fraction(0), Fraction(0)], Fraction(t))
+            for got, expected in zip(q, (cos(angle / 2), sin(angle / 2), 0, 0)):
+                self.assertAlmostEqual(float(got), expected, delta=1e-16)
+        q = checker.turned([Fraction(x) for x in half], [Fraction(0), Fraction(0), Fraction(pi)], Fraction(1))
+        for got, expected in zip(q, (0, -sqrt(0.5), 0, sqrt(0.5))):  # k (w + y j) = w k - y i
+            self.assertAlmostEqual(float(got), expected, delta=1e-15)
+        q = checker.turned([Fraction(1), 0, 0, 0], [Fraction(60), Fraction(80), Fraction(0)], Fraction(1))
+        self.assertLess(abs(checker.dot(q, q) - 1), Fraction(1, 2**95))
 
     def test_each_fault_is_rejected(self):
         farther = changed(let_down(), ("apart", 1, "until"), "1001/2000")

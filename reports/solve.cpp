@@ -99,12 +99,15 @@ std::string certificate_json(const audit::Certificate& certificate,
 }
 
 std::string certificate_json(const audit::CastCertificate& certificate,
-                             const Configuration& configuration, const Vec3& sweep) {
+                             const Configuration& configuration, const Sweep& sweep) {
+  const auto exact_vector = [](const Vec3& v) {
+    return exact(audit::RationalVector{mpq_class(v.x()), mpq_class(v.y()), mpq_class(v.z())});
+  };
   json exact_input = to_exact_json(configuration);
-  exact_input["sweep"] = exact(
-      audit::RationalVector{mpq_class(sweep.x()), mpq_class(sweep.y()), mpq_class(sweep.z())});
+  exact_input["sweep"] = exact_vector(sweep.translation());
+  if (sweep.turns()) exact_input["spin"] = exact_vector(sweep.spin());
   json result = {{"schema", "touchstone-cast-certificate-1"},
-                 {"configuration", to_hex_json(configuration, Sweep(sweep))},
+                 {"configuration", to_hex_json(configuration, sweep)},
                  {"exact", exact_input},
                  {"apart", json::array()}};
   for (const auto& [until, normal] : certificate.apart) {

@@ -53,6 +53,6 @@ nlohmann::json to_json(const audit::Enclosure& audit);
 std::string certificate_json(const audit::Certificate& certificate,
                              const Configuration& configuration);
 std::string certificate_json(const audit::CastCertificate& certificate,
-                             const Configuration& configuration, const Vec3& sweep);
+                             const Configuration& configuration, const Sweep& sweep);
 
 }  // namespace touchstone

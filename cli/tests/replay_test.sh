@@ -89,7 +89,8 @@ expect 2 '^error: --emit is "ode": must be one of bullet, .*jolt.*, whose progra
   replay "$folder/cast.jsonl" --emit ode
 expect 2 '^error: spin is given: must be left out: --emit knows no turns' replay <(sed 's/"sweep"/"spin":[1,0,0],&/' "$folder/cast.jsonl") --emit bullet
 expect 0 '"schema":"touchstone-cast-certificate-1"' replay "$folder/cast.jsonl" --certify
-expect 2 '^error: spin is given: must be left out: --certify knows no turns' replay <(sed 's/"sweep"/"spin":[1,0,0],&/' "$folder/cast.jsonl") --certify
+expect 0 '"spin":\["0x1p+0","0x0p+0","0x0p+0"\]' replay <(sed 's/"sweep"/"spin":[1,0,0],&/' "$folder/cast.jsonl") --certify
+expect 2 '^error: spin is 101.*: must be at most 100' replay <(sed 's/"sweep"/"spin":[101,0,0],&/' "$folder/cast.jsonl") --certify
 expect 2 '^error: sweep is of bodies that touch or overlap: must start' replay <(sed 's/0,0,5/0,0,1/' "$folder/cast.jsonl") --certify
 expect 2 '^error: sweep is .*must be left out: stability knows no casts' stability "$folder/cast.jsonl"
 expect 2 'sweep\[1\] is \[\]: must be' replay <(sed 's/\[0,0,-9\]/[0,[],1]/' "$folder/cast.jsonl")

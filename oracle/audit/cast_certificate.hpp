@@ -1,10 +1,11 @@
 #pragma once
 
 #include "oracle/audit/certificate.hpp"
+#include "reference/sweep.hpp"
 
 namespace touchstone::audit {
 
-/// A proof that A, as it moves by a translation, comes as far as a part of its sweep without
+/// A proof that A, as it moves and turns, comes as far as a part of its sweep without
 /// overlapping B, and next to B there, if that is not the whole of it (oracle/truth.md,
 /// oracle/check_certificate.py).
 struct CastCertificate {
@@ -20,8 +21,10 @@ struct CastCertificate {
   mpq_class distance;
 };
 
-/// Proves where A comes next to B, to within some roundings of all lengths. Throws InvalidInput
-/// (field "sweep") unless the sweep is finite and the bodies are proven apart at its start.
-CastCertificate certify_cast(const Configuration& configuration, const Vec3& sweep);
+/// Proves where A comes next to B, to within some roundings of all lengths; with a spin no nearer
+/// than 900 steps lead, of which each leaves a part of the distance. Throws InvalidInput (field
+/// "sweep") unless all lengths are finite and the bodies are proven apart at the start, and (field
+/// "spin") of a spin above 100 radians.
+CastCertificate certify_cast(const Configuration& configuration, const Sweep& sweep);
 
 }  // namespace touchstone::audit
