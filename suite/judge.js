@@ -120,8 +120,9 @@ function castVerdict(c, answer) {
   if (!(abs(length - 1) <= 1e-6)) return 'wrong-normal';
   const there = {...c};
   for (const e of 'xyz') there[`position_a_${e}`] += t * c[`sweep_${e}`];
-  const least = -max(c.start_depth, c.tolerance) - c.tolerance;
-  return gap(there, n.map(x => x / length)) < least ? 'wrong-normal' : 'agree';
+  const best = c.normal === 'none' ? [] : c.normal.split(';').map(one => one.split(' ').map(Number));
+  const distance = max(-max(c.start_depth, c.tolerance), ...best.map(one => gap(there, one)));
+  return distance - gap(there, n.map(x => x / length)) > c.tolerance ? 'wrong-normal' : 'agree';
 }
 function verdict(c, answer) {
   if ('outcome' in c) return castVerdict(c, answer);

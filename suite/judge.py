@@ -110,8 +110,9 @@ def cast_verdict(case, answer):
     if not any(n): return "agree"  # a routine that has no normals
     if abs(hypot(*n) - 1) > 1e-6: return "wrong-normal"
     there = {**case, **{f"position_a_{e}": case[f"position_a_{e}"] + t * case[f"sweep_{e}"] for e in "xyz"}}
-    least = -max(case["start_depth"], case["tolerance"]) - case["tolerance"]
-    return "wrong-normal" if gap(there, [x / hypot(*n) for x in n]) < least else "agree"
+    best = [list(map(float, one.split())) for one in case["normal"].split(";") if one != "none"]
+    distance = max([-max(case["start_depth"], case["tolerance"]), *(gap(there, one) for one in best)])
+    return "wrong-normal" if distance - gap(there, [x / hypot(*n) for x in n]) > case["tolerance"] else "agree"
 def verdict(case, answer):
     if "outcome" in case: return cast_verdict(case, answer)
     required = case["contact"] == "required"

@@ -89,6 +89,13 @@ TEST(LimitsOfCasts, AreThoseAtWhichScoresChange) {
       if (t < 0 || t > 1) continue;
       expect_same({CastStatus::touch, t, normal_at(d, t)});
     }
+    // At the touch normals whose regret is less and more than the tolerance.
+    for (const double angle : {1e-3, 3e-3, 1e-2, 3e-2, 0.1}) {
+      if (!d.truth.there) break;
+      const Vec3 n = d.truth.there->normals.front().n;
+      const Vec3 turned = Eigen::AngleAxisd(angle, n.unitOrthogonal()) * n;
+      expect_same({CastStatus::touch, cases[i].fraction, turned});
+    }
   }
 }
 
