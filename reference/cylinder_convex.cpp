@@ -169,7 +169,8 @@ StageResult side_or_rim_and_vertex(const InHull& p, const Vec3& v, const Vec3& t
   const bool is_beside = squared > 0 && (bound <= 0 || squared > bound * bound);
   StageResult found;
   const double radial = is_beside || above > 0 ? std::sqrt(squared) : 0;
-  if (is_beside && (radial - p.r - best) * radial > across.dot(to_other)) {
+  const double rounding = proof_part * p.lengths * p.lengths;  // of the way along the axis
+  if (is_beside && (radial - p.r - best) * radial > across.dot(to_other) - rounding) {
     Vec3 n = across / radial;
     n -= n.dot(p.u) * p.u;  // what rounding leaves along the axis counts over its whole length
     const double length = n.norm();

@@ -282,6 +282,24 @@ TEST(Triangles, DeepInACylinderComeFreeTheShorterWay) {
   EXPECT_NEAR(beside, -1, 1e-15);
 }
 
+// Next to the axis, and along it, what rounding leaves along an edge decided that its ends are no
+// nearest vertices: by most of their distance from the axis too deep.
+TEST(Triangles, WithAnEdgeNextToTheAxisAreAsDeepAsThat) {
+  for (std::uint64_t i = 0; i < 500; ++i) {
+    Random random(i);
+    const double beside = random.power_of_ten(-11, -6);
+    const Eigen::Quaterniond turn = random.turn();
+    const auto at = [&](double x, double y) -> Vec3 {
+      return turn * Vec3(x, y, random.uniform(-1, 1));
+    };
+    const Convex triangle = oracle::convex_hull(
+        {at(beside, 0), at(beside, 0), at(random.uniform(0.1, 1), random.uniform(-1, 1))});
+    const Configuration c{Cylinder(1, 3), Pose(Vec3::Zero(), turn), triangle, Pose()};
+    EXPECT_NEAR(signed_distance(c).value, beside - 1, promised) << i;
+    EXPECT_NEAR(certified_distance(c).value, beside - 1, promised) << i;
+  }
+}
+
 // The wheel that Jolt#1008 is about: beside a triangle's edge by a hair.
 TEST(Triangles, BesideAnEdgeAreApart) {
   const Convex floor = oracle::convex_hull({Vec3(-1, -1, 0), Vec3(1, -1, 0), Vec3(0, 1, 0)});
