@@ -80,7 +80,7 @@ class Contact {
 //   Capsule   cylinder_capsule.cpp   40 to 70 ns      40 ns, 90 ns
 //   Cylinder  cylinder_cylinder.cpp  50 to 500 ns     60 ns, 150 to 500 ns (most where rims meet)
 //   Box       cylinder_box.cpp       70 to 250 ns     70 ns, 150 to 300 ns
-//   Convex    cylinder_convex.cpp    250 to 1200 ns   100 to 250 ns, 300 to 1200 ns (by vertices)
+//   Convex    cylinder_convex.cpp    160 to 1000 ns   100 to 280 ns, 210 to 1200 ns (by vertices)
 //
 // Where normals tie, the first in a fixed order is taken: of a sphere whose centre is on the axis,
 // or as near to a cap as to the side, the cap's, and off the axis local x. Exchanged cylinders have

@@ -83,18 +83,16 @@ struct ConvexTables {
   const Vec3& vertex(int i) const { return places[static_cast<std::size_t>(i)]; }
   /// The first of several.
   int farthest_vertex(const Vec3& n) const { return first_at(n, support(n)); }
-  /// The first vertex that is so far along n.
+  /// The first vertex that is as far along n as the body is.
   int first_at(const Vec3& n, double far_along) const {
-    for (std::size_t i = 0; i + 1 < vertices.size(); ++i) {
-      const Four along = vertices[i].along(n);
-      for (int k = 0; k < 4; ++k) {
-        if (along[k] == far_along) return 4 * static_cast<int>(i) + k;
-      }
+    std::size_t i = 0;
+    Four along = vertices[0].along(n);
+    while (i + 1 < vertices.size() && !(along.maxCoeff() >= far_along)) {
+      along = vertices[++i].along(n);
     }
-    const Four along = vertices.back().along(n);
-    int k = 0;
-    while (k < 3 && !(along[k] == far_along)) ++k;
-    return 4 * static_cast<int>(vertices.size() - 1) + k;
+    int k = 3;  // branch-free: the winner is unpredictable
+    for (int j = 2; j >= 0; --j) k = along[j] >= far_along ? j : k;
+    return 4 * static_cast<int>(i) + k;
   }
   /// How far a point lies above a face's plane; with the bits of `heights`.
   double height(const Vec3& p, int face) const {

@@ -19,15 +19,16 @@
 //   rim_and_edge     across an edge: it crosses a rim, which is a point against an ellipse, seen
 //                    along the edge
 //
-// A hull has no larger gap than a part of it. So where the best cap or face is not proven, the edge
-// beyond which the bodies would meet is asked alone, as a segment (cylinder_segment.hpp): if the
-// whole hull lies behind that edge along the segment's best normal, it is the hull's, too.
+// A likely face comes first. Where A's point that faces it lies on it, that mostly proves it; where
+// it lies beyond an edge, that edge is asked alone, as a segment (cylinder_segment.hpp): a hull has
+// no larger gap than a part of it, so if all of it lies behind that edge along the segment's best
+// normal, that is the hull's, too.
 //
-// Else of faces, edges and vertices those are tried that a point of A leaves open: with n between
-// the normals n1 and n2 of an edge's faces, n = k1 n1 + k2 n2 with k1, k2 >= 0 and k1 + k2 >= 1, so
-// that g(n) is no more than k1 s1 + k2 s2, the heights of the point above the faces; likewise at a
-// vertex (proofs.md, "Convex bodies"). A point where A and B are deepest in each other is far below
-// all other faces, and few edges are left.
+// Else caps and faces are tried, and of edges and vertices those that a point of A leaves open:
+// with n between the normals n1 and n2 of an edge's faces, n = k1 n1 + k2 n2 with k1, k2 >= 0 and
+// k1 + k2 >= 1, so that g(n) is no more than k1 s1 + k2 s2, the heights of the point above the
+// faces; likewise at a vertex (proofs.md, "Convex bodies"). A point where A and B are deepest in
+// each other is far below all other faces, and few edges are left.
 
 namespace touchstone {
 namespace {
@@ -51,7 +52,7 @@ constexpr double less_a_hair = 1 - 1e-12;
 /// The best normal so far, and where on the hull the bodies meet along it.
 struct Best {
   StageResult found;
-  Vec3 place;
+  Vec3 place = Vec3::Zero();
 
   void improve(const StageResult& later, const Vec3& there) {
     if (later.gap > found.gap) *this = {later, there};
@@ -105,6 +106,30 @@ OfFeature face(const InHull& p, double best) {
   if (found < 0) return {};
   found = std::min(found, p.b.face_count - 1);
   return {at(best, p.b.face_normal(found)), found};
+}
+
+/// The gap along the normal of a face.
+StageResult at_face(const InHull& p, int face) {
+  const Vec3& n = p.b.face_normal(face);
+  return at(p.b.height(p.d, face) - p.h * std::abs(n.dot(p.u)) - p.r * n.cross(p.u).norm(), n);
+}
+/// A face that is likely the best: with a polynomial for the sine, no root is waited for.
+int likely_face(const InHull& p) {
+  using Four = ConvexTables::Four;
+  double best = -std::numeric_limits<double>::infinity();
+  int found = 0;
+  for (std::size_t i = 0; i < p.b.faces.size(); ++i) {
+    const ConvexTables::Planes& faces = p.b.faces[i];
+    const Four cosine = faces.normal.along(p.u), squared = cosine * cosine;
+    const Four gaps =
+        faces.heights(p.d) - p.h * cosine.abs() - p.r * (1 - 0.5 * squared * (1 + squared));
+    for (int k = 0; k < 4; ++k) {  // branch-free: the winner is unpredictable
+      const bool is_better = gaps[k] > best;
+      best = is_better ? gaps[k] : best;
+      found = is_better ? 4 * static_cast<int>(i) + k : found;
+    }
+  }
+  return std::min(found, p.b.face_count - 1);
 }
 
 /// An edge and the cylinder, seen along the edge: its axis is a line, each cap an ellipse.
@@ -258,21 +283,6 @@ StageResult rims_and_edge(const InHull& p, const ConvexTables::Edge& e, double b
   return found;
 }
 
-/// Of the edges that lead from a vertex along `way`, the one that falls off least along n; -1 if
-/// there is none.
-int highest_edge(const InHull& p, int vertex, const Vec3& way, const Vec3& n) {
-  int found = -1;
-  double most = -std::numeric_limits<double>::infinity();
-  for (const int i : p.b.vertex_edges.of(vertex)) {
-    const ConvexTables::Edge& e = p.b.edges[static_cast<std::size_t>(i)];
-    const double sign = e.vertices[0] == vertex ? 1 : -1, onward = sign * e.along.dot(way);
-    if (!(onward > 0)) continue;
-    const double rises = sign * e.along.dot(n);
-    if (rises > most * onward) most = rises / onward, found = i;
-  }
-  return found;
-}
-
 /// An edge alone, as a segment: its best normal is the hull's where the hull lies behind it.
 StageResult edge_alone(const InHull& p, int edge, double best) {
   const ConvexTables::Edge& e = p.b.edges[static_cast<std::size_t>(edge)];
@@ -284,7 +294,7 @@ StageResult edge_alone(const InHull& p, int edge, double best) {
   const double reach = std::max(n.dot(e.from), n.dot(p.b.vertex(e.vertices[1])));
   const double beyond = std::max(0.0, p.b.support(n) - reach);
   if (!(of_edge.gap - beyond > best)) return {};
-  return at(of_edge.gap - beyond, n, beyond <= proof_part * p.lengths);
+  return at(of_edge.gap - beyond, n, beyond <= tie_part * p.lengths);
 }
 
 /// Vertices that were tried, each once.
@@ -353,31 +363,30 @@ class Tried {
   return best.found;
 }
 
-StageResult largest_gap(const InHull& p, EarlyExit exit, double* highest) {
-  const OfFeature of_cap = cap(p);
-  if (exit.ends_with(of_cap.found)) return of_cap.found;
-  const OfFeature of_face = face(p, of_cap.found.gap);
-  if (exit.ends_with(of_face.found)) return of_face.found;
-  const bool is_face = of_face.found.gap > of_cap.found.gap;
-  Best best = is_face
-                  ? Best{of_face.found, p.b.face_middles[static_cast<std::size_t>(of_face.feature)]}
-                  : Best{of_cap.found, p.b.vertex(of_cap.feature)};
-  if (exit.trusts_proofs) {
-    int edge;
-    if (is_face) {
-      const BeyondEdge beyond(p, of_face.feature, point_facing(p, best.found.normal(), best.place));
-      if (is_proven_at_face(p, best.found.gap, beyond)) return best.found;
-      edge = beyond.edge;
-    } else {
-      const Vec3 arm = p.d - best.place, to_axis = arm - arm.dot(p.u) * p.u;
-      edge = highest_edge(p, of_cap.feature, to_axis, best.found.normal());
-    }
-    if (edge >= 0) {
-      const ConvexTables::Edge& e = p.b.edges[static_cast<std::size_t>(edge)];
-      best.improve(edge_alone(p, edge, best.found.gap), e.from);
-      if (exit.ends_with(best.found)) return best.found;
-    }
+/// A face, where A's point that faces it lies on it; else the edge beyond which that lies.
+Best likely_face_or_edge(const InHull& p, EarlyExit exit) {
+  const int face = likely_face(p);
+  Best best{at_face(p, face), p.b.face_middles[static_cast<std::size_t>(face)]};
+  if (exit.ends_with(best.found)) return best;
+  const BeyondEdge beyond(p, face, point_facing(p, best.found.normal(), best.place));
+  best.found.is_proven = is_proven_at_face(p, best.found.gap, beyond);
+  if (!best.found.is_proven && beyond.by > 0) {
+    best.improve(edge_alone(p, beyond.edge, best.found.gap),
+                 p.b.edges[static_cast<std::size_t>(beyond.edge)].from);
   }
+  return best;
+}
+
+StageResult largest_gap(const InHull& p, EarlyExit exit, double* highest) {
+  Best best;
+  if (exit.trusts_proofs) best = likely_face_or_edge(p, exit);
+  if (exit.ends_with(best.found)) return best.found;
+  const OfFeature of_cap = cap(p);
+  best.improve(of_cap.found, p.b.vertex(of_cap.feature));
+  if (exit.ends_with(best.found)) return best.found;
+  const OfFeature of_face = face(p, best.found.gap);
+  best.improve(of_face.found, p.b.face_middles[static_cast<std::size_t>(of_face.feature)]);
+  if (exit.ends_with(best.found)) return best.found;
   return search_open_edges(p, exit, best, highest);
 }
 

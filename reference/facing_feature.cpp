@@ -174,7 +174,8 @@ FacingFeature facing(const PosedConvex& body, const Vec3& outward, double slack)
   for (const int e : hull.vertex_edges.of(top)) {
     const ConvexTables::Edge& other = hull.edges[static_cast<std::size_t>(e)];
     const double sine = std::abs(other.along.dot(n));
-    if (sine < least) least = sine, edge = &other;
+    edge = sine < least ? &other : edge;  // branch-free: the winner is unpredictable
+    least = std::min(least, sine);
   }
   const double along = edge->along.dot(n), half = edge->length / 2;
   if (const double part = part_of_flat(half, along, slack); part > 0) {

@@ -50,7 +50,7 @@ HULLS = 5
 # Which pair a file is of, where it is of one only.
 PAIRS = {"cylinder_plane": 0, "cylinder_sphere": 1, "cylinder_capsule": 2, "cylinder_cylinder": 3,
          "rim_rim": 3, "rims": 3, "cylinder_box": 4, "box_sides": 4, "cylinder_convex": HULLS,
-         "convex_tables": HULLS, "cap_on_polygon": HULLS, "line_in_polygon": HULLS}
+         "convex_proofs": HULLS, "convex_tables": HULLS, "cap_on_polygon": HULLS, "line_in_polygon": HULLS}
 
 
 def routine_files():
