@@ -12,6 +12,7 @@
 // Points       coal: one, midway between the two nearest points. coal-patch: the polygon's corners,
 //              midway, all with the depth of the deepest; at most 16, evenly chosen.
 // Threshold    security_margin.
+// Casts        None: Coal left FCL's continuousCollide out (coal#421).
 // Version      Of the installed package; not in Debian 12. Built where CMake finds coal's package.
 #include <algorithm>
 #include <coal/collision.h>
