@@ -14,8 +14,9 @@ struct CastLimits {
   double min_fraction, max_fraction;  ///< of the sweep, in [0, 1]; 1 and 0 where it is forbidden
 };
 
-/// Both fractions are multiples of a power of two, rounded outward by at most 1/512 of what moves A
-/// by the tolerance. Precondition: the tolerance is at least 1e-9 of the length of the sweep.
+/// Each limit is the fraction at which the distance is the tolerance to within 1/1024 of it,
+/// rounded outward to a multiple of a power of two, by no more than moves A by as much.
+/// Precondition: the tolerance is at least 1e-12 of the length of the sweep.
 CastLimits cast_limits(const Configuration& configuration, const Vec3& sweep,
                        const oracle::FirstTouch& truth, double tolerance);
 
