@@ -88,6 +88,8 @@ also 'btCollisionWorld::objectQuerySingle(' '^// Seen     Bullet .*: agree, touc
 expect 2 '^error: --emit is "ode": must be one of bullet, .*jolt.*, whose programs know casts of cylinder-sphere$' \
   replay "$folder/cast.jsonl" --emit ode
 expect 2 '^error: spin is given: must be left out: --emit knows no turns' replay <(sed 's/"sweep"/"spin":[1,0,0],&/' "$folder/cast.jsonl") --emit bullet
+graze='{"a":{"shape":"cylinder","radius":0.5,"half_length":1},"pose_a":{"position":[-3,0,1.5],"axis":"y"},"b":{"shape":"sphere","radius":1},"pose_b":{"position":[0.001,0,0]},"sweep":[7,0.1,0]}'
+expect 2 '^error: sweep is of a graze of which no proof' replay <(echo "$graze") --emit bullet
 expect 0 '"schema":"touchstone-cast-certificate-1"' replay "$folder/cast.jsonl" --certify
 expect 0 '"spin":\["0x1p+0","0x0p+0","0x0p+0"\]' replay <(sed 's/"sweep"/"spin":[1,0,0],&/' "$folder/cast.jsonl") --certify
 expect 2 '^error: spin is 101.*: must be at most 100' replay <(sed 's/"sweep"/"spin":[101,0,0],&/' "$folder/cast.jsonl") --certify

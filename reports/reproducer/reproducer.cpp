@@ -236,6 +236,10 @@ std::string reproducer(std::string_view name, std::string_view language, const C
   Texts texts = question_texts(c, numbers);
   if (sweep) {
     const oracle::FirstTouch touch = oracle::first_touch(given, Sweep(*sweep));
+    if (touch.status == oracle::FirstTouch::Status::undecided) {
+      throw InvalidInput("sweep", "of a graze of which no proof tells whether it touches",
+                         "must be another one with --emit");
+    }
     texts.merge(cast_texts(given, *sweep, touch, bar, numbers));
     texts["seen"] = seen_cast(title, candidate, given, *sweep, touch, bar);
     tags.emplace_back(status_name(touch.status));
