@@ -284,18 +284,37 @@ StageResult rims_and_edge(const InHull& p, const ConvexTables::Edge& e, double b
 }
 
 /// An edge alone, as a segment: its best normal is the hull's where the hull lies behind it.
-StageResult edge_alone(const InHull& p, int edge, double best) {
-  const ConvexTables::Edge& e = p.b.edges[static_cast<std::size_t>(edge)];
-  const double half = e.length / 2;
-  const FoldedSegment segment{FoldedAxes(p.u, e.along, p.d - (e.from + half * e.along)), p.r, p.h,
-                              half};
-  const StageResult of_edge = largest_gap(segment, {no_early_exit}, nullptr);
-  const Vec3 n = segment.axes.to_world(of_edge.normal());
-  const double reach = std::max(n.dot(e.from), n.dot(p.b.vertex(e.vertices[1])));
-  const double beyond = std::max(0.0, p.b.support(n) - reach);
-  if (!(of_edge.gap - beyond > best)) return {};
-  return at(of_edge.gap - beyond, n, beyond <= tie_part * p.lengths);
-}
+struct EdgeAlone {
+  const ConvexTables::Edge& edge;
+  Vec3 n, end;  ///< of its ends the one that is farther along n
+  StageResult found;
+
+  EdgeAlone(const InHull& p, int index) : edge(p.b.edges[static_cast<std::size_t>(index)]) {
+    const double half = edge.length / 2;
+    const Vec3 middle = edge.from + half * edge.along, &to = p.b.vertex(edge.vertices[1]);
+    const FoldedSegment segment{FoldedAxes(p.u, edge.along, p.d - middle), p.r, p.h, half};
+    const StageResult of_edge = largest_gap(segment, {no_early_exit}, nullptr);
+    n = segment.axes.to_world(of_edge.normal());
+    end = n.dot(to) > n.dot(edge.from) ? to : edge.from;
+    const double beyond = std::max(0.0, p.b.support(n) - n.dot(end));
+    found = at(of_edge.gap - beyond, n, beyond <= tie_part * p.lengths);
+  }
+  /// An edge of the vertex that is farther than this one along n, which leads back here falling off
+  /// least; -1 if there is none.
+  int next(const InHull& p) const {
+    const int vertex = p.b.farthest_vertex(n);
+    const Vec3 way = end - p.b.vertex(vertex);
+    int next = -1;
+    double most = -std::numeric_limits<double>::infinity();
+    for (const int i : p.b.vertex_edges.of(vertex)) {
+      const ConvexTables::Edge& e = p.b.edges[static_cast<std::size_t>(i)];
+      const double sign = e.vertices[0] == vertex ? 1 : -1, onward = sign * e.along.dot(way);
+      const double rises = sign * e.along.dot(n);
+      if (onward > 0 && rises > most * onward) most = rises / onward, next = i;
+    }
+    return next;
+  }
+};
 
 /// Vertices that were tried, each once.
 class Tried {
@@ -363,16 +382,21 @@ class Tried {
   return best.found;
 }
 
-/// A face, where A's point that faces it lies on it; else the edge beyond which that lies.
+/// A face, where A's point that faces it lies on it; else the edge beyond which that lies, or next
+/// to it the one to which a farther vertex leads.
 Best likely_face_or_edge(const InHull& p, EarlyExit exit) {
   const int face = likely_face(p);
   Best best{at_face(p, face), p.b.face_middles[static_cast<std::size_t>(face)]};
   if (exit.ends_with(best.found)) return best;
   const BeyondEdge beyond(p, face, point_facing(p, best.found.normal(), best.place));
   best.found.is_proven = is_proven_at_face(p, best.found.gap, beyond);
-  if (!best.found.is_proven && beyond.by > 0) {
-    best.improve(edge_alone(p, beyond.edge, best.found.gap),
-                 p.b.edges[static_cast<std::size_t>(beyond.edge)].from);
+  if (best.found.is_proven || !(beyond.by > 0)) return best;
+  const EdgeAlone first(p, beyond.edge);
+  best.improve(first.found, first.edge.from);
+  if (exit.ends_with(best.found)) return best;
+  if (const int next = first.next(p); next >= 0) {
+    const EdgeAlone second(p, next);
+    best.improve(second.found, second.edge.from);
   }
   return best;
 }
