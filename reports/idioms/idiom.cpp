@@ -219,8 +219,8 @@ std::string idiom_file(const IdiomRequest& request) {
                     {"order", habit.real_part_first ? "w, x, y, z" : "x, y, z, w"}});
   if (&idiom.language == &rust) texts["axis"] = with_points(texts["axis"]);
   texts.merge(npm_texts(program, program.candidate, candidate, cases.front().configuration));
-  const Tags of_file = {"engine", "contact", "solid", release, idiom.name,
-                        habit.real_part_first ? "wxyz" : "xyzw"};
+  const Tags of_file = {"engine", "contact",  "solid",
+                        release,  idiom.name, habit.real_part_first ? "wxyz" : "xyzw"};
   const auto tags_of = [&](const IdiomCase& c) {
     const Pair pair = pair_of(c.configuration);
     Tags result = names_in(tags_for(program, pair));
