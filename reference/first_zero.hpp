@@ -40,7 +40,7 @@ class FirstZeroSearch {
   /// Of the next moments, asks at(t) until the first zero is known or none is proven.
   template <class At>
   FirstZero find(At at) {
-    // 114 bring sweeps of 1e6 sizes within rounding (proofs.md); 19 have been needed.
+    // 114 bring sweeps of 1e6 sizes within rounding (proofs.md); 31 have been needed.
     constexpr int max_moments = 200;
     for (int i = 0; i < max_moments; ++i) {
       if (is_proven_positive()) return {false, left_};
@@ -102,7 +102,10 @@ class FirstZeroSearch {
       t = left_.t + stretch_ * way_to_zero_of_parabola(*before_left_);
     }
     took_parabola_ = takes_parabola;
-    return std::clamp(t, std::min(first, last), last);
+    t = std::clamp(t, std::min(first, last), last);
+    // A chord to a height that is nothing but rounding ends at the right one, which then may be
+    // where the body leaves again: only tangents prove that no zero comes before.
+    return right_ && t >= right_->t ? first : t;
   }
   /// From the left one, of the parabola that touches its tangent and has the curvature that both
   /// slopes tell; of one without zeros, to where it is lowest.
