@@ -24,6 +24,9 @@ namespace {
 
 using testing::HasSubstr;
 
+/// A shell's jobs in the background ignore it, and so would what is interrupted here.
+[[maybe_unused]] const auto heard_here = signal(SIGINT, SIG_DFL);
+
 std::string name(std::size_t i) { return "task " + std::to_string(i); }
 void ignore(std::size_t) {}
 
