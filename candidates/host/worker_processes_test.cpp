@@ -24,8 +24,10 @@ namespace {
 
 using testing::HasSubstr;
 
-/// A shell's jobs in the background ignore it, and so would what is interrupted here.
-[[maybe_unused]] const auto heard_here = signal(SIGINT, SIG_DFL);
+/// A shell's jobs in the background ignore Ctrl-C, and what nohup starts a hangup; so would what is
+/// interrupted here.
+[[maybe_unused]] const auto heard_here = {signal(SIGINT, SIG_DFL), signal(SIGTERM, SIG_DFL),
+                                          signal(SIGHUP, SIG_DFL)};
 
 std::string name(std::size_t i) { return "task " + std::to_string(i); }
 void ignore(std::size_t) {}
