@@ -10,6 +10,7 @@ endif()
 foreach(suite IN LISTS suites)
   string(REGEX REPLACE "[ \n]|\\.[ \n]$" "" suite "${suite}")
   add_test(${suite} ${program} --gtest_filter=${suite}.*)
-  # The same properties each time; a run by hand without RC_PARAMS draws others.
-  set_tests_properties(${suite} PROPERTIES ENVIRONMENT RC_PARAMS=seed=1)
+  # The same properties each time; a run by hand without RC_PARAMS draws others. The timeout only
+  # ends what hangs: some suites take a minute of a quiet machine.
+  set_tests_properties(${suite} PROPERTIES ENVIRONMENT RC_PARAMS=seed=1 TIMEOUT 7200)
 endforeach()
