@@ -1,5 +1,5 @@
 # touchstone_test(NAME room_test SOURCES a_test.cpp … LIBRARIES …): one test program, each suite of
-# which is a test of CTest's: one process for each TEST would cost the set a twentieth of its time.
+# which is a test of CTest's: one process for each TEST would cost the set a tenth of its time.
 function(touchstone_test)
   if(NOT TOUCHSTONE_TESTS)
     return()

@@ -99,8 +99,8 @@ double about_or_longer(Random& random, double length) {
 
 // A's lowest point is in a triangle, or the top of a tetrahedron, about its depth away from an
 // edge, and A is about that thick. Without its disc about the point as wide as that, or without the
-// rest of A, the shorter way out is past the edge: by a hair where A stands all but upright behind
-// that point, which is all but its depth away.
+// rest of A, the shorter way out is past the edge. It is shorter by a hair where A stands nearly
+// upright and the point is a little less than its depth away.
 TEST(EarlyExits, AreRightOfFacesNextToTheirEdges) {
   for (std::uint64_t i = 0; i < 200 * count(); ++i) {
     Random random(i);
