@@ -4,11 +4,13 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <type_traits>
 
 #include "batch.hpp"
 #include "contact.hpp"
 #include "first_zero.hpp"
 #include "invalid_input.hpp"
+#include "passing_sphere.hpp"
 
 namespace touchstone {
 namespace {
@@ -66,7 +68,17 @@ Cast cast(const Cylinder& a, const Pose& pose_a, const Vec3& sweep, const Other&
     const SignedDistance found = signed_distance(a, Pose(at, pose_a.orientation()), b, still);
     return {t, found, found.value / 4, found.normal.dot(quarter), sizes + at.cwiseAbs().sum()};
   };
-  const Moment start = moment(0);
+  Moment start{};
+  if constexpr (std::is_same_v<Other, Sphere>) {
+    const PassingSphere passing(a, pose_a, pose_a.position() - pose_b.position(), sweep, b);
+    if (passing.misses()) return {CastStatus::never, 1, moment(0).found.normal};
+    if (passing.time() > 0 && passing.time() <= 1) {
+      start = moment(passing.time());
+      // It was positive before, if it still falls: it is convex, and the bodies start apart.
+      if (start.is_at_zero()) return {CastStatus::touch, start.t, start.found.normal};
+    }
+  }
+  if (!(start.height > 0 && start.approaches())) start = moment(0);
   if (start.found.value <= 0) return {CastStatus::from_start, 0, start.found.normal};
   const FirstZero end = FirstZeroSearch(start).find(moment);
   if (!end.is_reached) return {CastStatus::never, 1, end.at.found.normal};

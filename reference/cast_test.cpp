@@ -206,6 +206,18 @@ TEST(Cast, AGrazeTakesFewMoments) {
   }
 }
 
+TEST(Cast, AMissIsToldFromWhereAIsNearest) {
+  // A ball passes another by 8e-12 m; the normal's rounding leaves a slope, along which the next
+  // moment is a kilometre away, where rounding is 2e-11 m.
+  const auto at = [](double t) -> Moment {
+    const double along = 16e3 * (t - 0.5), apart = std::hypot(25 + 8e-12, along);
+    return {t, {apart - 25, Vec3::UnitX()}, (apart - 25) / 4, 4e3 * along / apart, 60 + 2 * apart};
+  };
+  Moment nearest = at(0.5);
+  nearest.slope = -2.5e-11;
+  EXPECT_FALSE(FirstZeroSearch(nearest).find(at).is_reached);
+}
+
 TEST(Cast, PassesNoEdgeBehindACurve) {
   // A is in B from t = `in` to `out`, and where it leaves rounding makes a zero of the height.
   // Parabolas lead past that, since the curvature falls from a third power on.

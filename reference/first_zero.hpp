@@ -22,6 +22,8 @@ struct Moment {
 
   bool approaches() const { return slope < 0; }
   double zero_of_tangent() const { return t - height / slope; }
+  /// Is it where a distance that was positive before is zero, but for rounding?
+  bool is_at_zero() const { return approaches() && std::abs(height) <= proof_part / 4 * lengths; }
 };
 
 /// The end of a search.
@@ -117,13 +119,12 @@ class FirstZeroSearch {
   }
 
   bool is_zero(const Moment& there) const {
-    const double height = std::abs(there.height);
-    if (there.approaches()) return height <= tie_part / 4 * there.lengths;
-    return height <= rounding(there) && crossing(there).height >= -rounding(there);
+    if (there.approaches()) return there.is_at_zero();
+    return std::abs(there.height) <= rounding(there) && crossing(there).height >= -rounding(there);
   }
   /// Is there nothing but rounding between the left one and the lowest distance?
   bool is_left_lowest(const Moment& there) const {
-    if (!(there.height > 0 && left_.height <= rounding(there))) return false;
+    if (!(there.height > 0 && left_.height <= rounding(left_))) return false;
     if (there.approaches()) return there.height >= left_.height;
     return std::abs(crossing(there).height) <= rounding(there);
   }
