@@ -30,8 +30,8 @@ struct Cast {
 /// fraction in double moves A; nothing is passed through, however thin it is and however far the
 /// sweep goes (cast_test.cpp). No tolerance is to be set. It asks for 2.1 signed distances as the
 /// mean of random sweeps, one in four grazing, for nine at most in 99 of 100, and for 19 at most in
-/// 300,000. (Near a touch one may cost much more than from afar.) Of a sphere it is nearly always one, for a
-/// closed form tells the moment.
+/// 300,000. (Near a touch one may cost much more than from afar.) Of a sphere it is nearly always
+/// one, for a closed form tells the moment.
 ///
 /// The signed distance is the largest of functions that are linear in t, so it is convex, and its
 /// tangents lie below it: they never lead past the touch, and prove that there is none

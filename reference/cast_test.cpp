@@ -218,6 +218,20 @@ TEST(Cast, AMissIsToldFromWhereAIsNearest) {
   EXPECT_FALSE(FirstZeroSearch(nearest).find(at).is_reached);
 }
 
+TEST(Cast, AMissIsToldFromFarAway) {
+  // A comes from 35 km, whose rounding is that of 2e-10 m, and then slides along a face 1e-10 m
+  // above it, where rounding leaves a slope that rises.
+  const auto at = [](double t) -> Moment {
+    const double left = 35e3 * (0.99998 - t);
+    const bool is_sliding = left < 1e-10;
+    const double height = is_sliding ? 1e-10 : left, slope = is_sliding ? 5e-14 : -35e3;
+    return {t, {height, Vec3::UnitX()}, height / 4, slope / 4, 2 + 2 * std::abs(left)};
+  };
+  const auto [end, moments] = count_moments(at);
+  EXPECT_FALSE(end.is_reached);
+  EXPECT_LE(moments, 10);
+}
+
 TEST(Cast, PassesNoEdgeBehindACurve) {
   // A is in B from t = `in` to `out`, and where it leaves rounding makes a zero of the height.
   // Parabolas lead past that, since the curvature falls from a third power on.
@@ -336,6 +350,50 @@ TEST_P(CastOf, RandomSweepsIsWithinRoundingOfTheTruth) {
   EXPECT_LT(all_moments, static_cast<int>(3 * count));
   EXPECT_GT(touches, static_cast<int>(count / 10)) << "too few of the sweeps touch";
   EXPECT_GT(nevers, static_cast<int>(count / 20)) << "too few of the sweeps miss";
+}
+
+/// A sweep that comes as near as `gap` to the body, or goes on into it, mostly all but along its
+/// surface; and that ends there, or before or after it.
+Vec3 graze(Configuration& c, double gap, Random& random) {
+  const SignedDistance at = signed_distance(c);
+  const Vec3 nearest = c.pose_a.position() + (gap - at.value) * at.normal;
+  Vec3 way = random.direction();
+  way -= way.dot(at.normal) * at.normal;
+  if (random.one_of(4) > 0) {
+    way -= (random.toss() ? 0 : random.power_of_ten(-16, 0)) * way.norm() * at.normal;
+  }
+  way.normalize();
+  const double length = size_of(c) * random.power_of_ten(random.toss() ? -3 : -17, 5);
+  const double end = random.toss() ? 1 + random.sign() * random.power_of_ten(-16, 0) : 2;
+  c.pose_a = Pose(nearest - length * way, c.pose_a.orientation());
+  return end * length * way;
+}
+
+TEST_P(CastOf, GrazesIsWithinRoundingOfTheTruth) {
+  Random random(static_cast<std::uint64_t>(GetParam()) + 57);
+  const std::uint64_t count = tried_of_each(200);
+  int touches = 0, nevers = 0;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    const CastIdentity identity = any_cast(GetParam(), random);
+    Configuration c = make_configuration(identity.pose);
+    const double gap =
+        random.one_of(3) == 0 ? 0 : random.sign() * size_of(c) * random.power_of_ten(-16, 0);
+    const Vec3 sweep = graze(c, gap, random);
+    const Cast found = cast(c, sweep);
+    SCOPED_TRACE(testing::Message()
+                 << i << ' ' << to_string(identity.pose) << ", touch at " << found.fraction);
+    const Configuration there = swept(c, Sweep(sweep), found.fraction);
+    const oracle::FirstTouch truth = oracle::first_touch(c, Sweep(sweep));
+    const Bar bar{.tolerance = distance_tolerance(there, sweep) / smaller_size(c)};
+    const CastScore score = score_cast(c, Sweep(sweep), truth, found, bar);
+    EXPECT_EQ(score.outcome, CastOutcome::agree)
+        << outcome_name(score.outcome) << ' ' << score.distance.value_or(NAN) * error_size(c, bar)
+        << ' ' << score.normal_regret.value_or(NAN) << " of " << smaller_size(c);
+    touches += truth.status == oracle::FirstTouch::Status::touch;
+    nevers += truth.status == oracle::FirstTouch::Status::never;
+  }
+  EXPECT_GT(touches, static_cast<int>(count / 10));
+  EXPECT_GT(nevers, static_cast<int>(count / 10));
 }
 
 INSTANTIATE_TEST_SUITE_P(Pairs, CastOf, testing::ValuesIn(all_pairs), name_of_other);

@@ -5,6 +5,7 @@
 #include "reference/contact_of.hpp"
 #include "reference/facing_feature.hpp"
 #include "reference/manifold.hpp"
+#include "reference/random_bodies_test.hpp"
 #include "reference/support.hpp"
 
 namespace touchstone {

@@ -21,6 +21,8 @@ struct Moment {
   double lengths;  ///< All lengths together, metres: what rounding is relative to.
 
   bool approaches() const { return slope < 0; }
+  /// What rounding may make of the height.
+  double rounding() const { return rounding_part / 4 * lengths; }
   double zero_of_tangent() const { return t - height / slope; }
   /// Is it where a distance that was positive before is zero, but for rounding?
   bool is_at_zero() const { return approaches() && std::abs(height) <= proof_part / 4 * lengths; }
@@ -47,7 +49,7 @@ class FirstZeroSearch {
     for (int i = 0; i < max_moments; ++i) {
       if (is_proven_positive()) return {false, left_};
       if (right_ && is_left_lowest(*right_)) return {true, left_};
-      const double t = next();
+      const double t = away_from_ends(next());
       if (!(t > left_.t)) return {true, left_};
       if (right_ && !(t < right_->t)) return {true, *right_};
       const Moment there = at(t);
@@ -69,15 +71,15 @@ class FirstZeroSearch {
     const double way = fall / (right.slope - left_.slope);
     return {left_.t + way, left_.height + left_.slope * way};
   }
-  /// What rounding may make of a height between the left one and another.
-  double rounding(const Moment& other) const {
-    return rounding_part / 4 * std::max(left_.lengths, other.lengths);
+  /// What rounding may make of their crossing's height.
+  double rounding(const Moment& right) const {
+    return std::max(left_.rounding(), right.rounding());
   }
 
   /// Do the tangents stay above zero?
   bool is_proven_positive() const {
     if (!left_.approaches()) return true;
-    if (!right_) return left_.height + left_.slope * (1 - left_.t) > rounding(left_);
+    if (!right_) return left_.height + left_.slope * (1 - left_.t) > left_.rounding();
     return right_->height > 0 && crossing(*right_).height > rounding(*right_);
   }
 
@@ -109,6 +111,17 @@ class FirstZeroSearch {
     // where the body leaves again: only tangents prove that no zero comes before.
     return right_ && t >= right_->t ? first : t;
   }
+  /// Between two moments above zero, one of which may be so far away that rounding puts their
+  /// crossing onto the other one: as far from either as that may be wrong, and ever farther where
+  /// the distance hardly changes.
+  double away_from_ends(double t) {
+    if (!right_ || !(right_->height > right_->rounding())) return t;
+    const double noise = margin_ * rounding(*right_);
+    const double lo = left_.t + noise / right_->slope, hi = right_->t + noise / left_.slope;
+    const double between = std::min(std::max(t, lo < right_->t ? lo : t), hi > left_.t ? hi : t);
+    margin_ = between == t ? 2 : 4 * margin_;
+    return between;
+  }
   /// From the left one, of the parabola that touches its tangent and has the curvature that both
   /// slopes tell; of one without zeros, to where it is lowest.
   double way_to_zero_of_parabola(const Moment& before) const {
@@ -120,11 +133,11 @@ class FirstZeroSearch {
 
   bool is_zero(const Moment& there) const {
     if (there.approaches()) return there.is_at_zero();
-    return std::abs(there.height) <= rounding(there) && crossing(there).height >= -rounding(there);
+    return std::abs(there.height) <= there.rounding() && crossing(there).height >= -rounding(there);
   }
   /// Is there nothing but rounding between the left one and the lowest distance?
   bool is_left_lowest(const Moment& there) const {
-    if (!(there.height > 0 && left_.height <= rounding(left_))) return false;
+    if (!(there.height > 0 && left_.height <= left_.rounding())) return false;
     if (there.approaches()) return there.height >= left_.height;
     return std::abs(crossing(there).height) <= rounding(there);
   }
@@ -142,7 +155,7 @@ class FirstZeroSearch {
   Moment left_;
   std::optional<Moment> before_left_, right_;
   bool went_too_far_ = false, took_parabola_ = false;
-  double stretch_ = 1;
+  double stretch_ = 1, margin_ = 2;
 };
 
 }  // namespace touchstone
