@@ -1,18 +1,14 @@
 #include "reports/compare.hpp"
 
 #include <cmath>
-#include <cstdlib>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <map>
 #include <sstream>
 
 #include <nlohmann/json.hpp>
 
 #include "reference/invalid_input.hpp"
-#include "reports/history.hpp"
-#include "reports/report_json.hpp"
-#include "reports/small_report_test.hpp"
+#include "reports/compared_reports_test.hpp"
 
 namespace touchstone {
 namespace {
@@ -22,90 +18,12 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-/// A row with an agreement of `agree` in 100, a 99th percentile of `error`, a time of `time` ns
-/// give or take 1% and Bullet at 100 ns.
-json row(const char* pose_class, const char* candidate, int agree, double error, double time) {
-  const json errors = {{"median", error / 10}, {"p99", error}, {"max", 2 * error}};
-  return {{"pair", "cylinder-box"},
-          {"class", pose_class},
-          {"candidate", candidate},
-          {"count", 100},
-          {"outcomes", {{"agree", agree}, {"shallow", 100 - agree}}},
-          {"depth_error", errors},
-          {"normal_regret", nullptr},
-          {"point_error", nullptr},
-          {"coverage", {{"mean", 0.5}}},
-          {"pareto", true},
-          {"nanoseconds",
-           {{"median", time},
-            {"low", 0.99 * time},
-            {"high", 1.01 * time},
-            {"instructions", nullptr},
-            {"ratio_to_bullet", time / 100},
-            {"ratio_low", 0.99 * time / 100},
-            {"ratio_high", 1.01 * time / 100}}}};
-}
-
-json small_report() {
-  return {{"schema", report_schema},
-          {"version", "0.1.0"},
-          {"seed", 1},
-          {"tolerance", 1e-4},
-          {"threshold", 0.0},
-          {"configurations", 200},
-          {"partial", false},
-          {"machine", {{"cpu", "one"}, {"compiler", "g++"}}},
-          {"candidates",
-           {{{"name", "bullet"}, {"version", "3.24"}, {"settings", "as it is"}},
-            {{"name", "mine"}, {"version", "1"}, {"settings", "as it is"}}}},
-          {"results",
-           {row("rim-face", "bullet", 90, 1e-3, 100), row("rim-face", "mine", 80, 1e-6, 200),
-            row("touching", "bullet", 90, 1e-3, 100), row("touching", "mine", 80, 1e-6, 200)}},
-          {"summary",
-           {row("everyday", "bullet", 90, 1e-3, 100), row("everyday", "mine", 80, 1e-6, 200)}}};
-}
-
-/// As they are, but for the sum of all classes.
-Comparison compare(const json& before, const json& after, const CompareLimits& limits) {
-  const auto read = [](json report) {
-    std::map<std::string, std::uint64_t> counts;
-    for (const json& row : report["results"]) {
-      counts[row["pair"].get<std::string>() + '/' + row["class"].get<std::string>()] = row["count"];
-    }
-    report["configurations"] = 0;
-    for (const auto& [name, count] : counts) {
-      report["configurations"] = report["configurations"].get<std::uint64_t>() + count;
-    }
-    return report_from_text(report.dump(), "report");
-  };
-  return touchstone::compare(read(before), read(after), limits);
-}
-
-/// Lists the changes beyond the limits.
-std::vector<std::string> changes(const Comparison& comparison) {
-  std::vector<std::string> result;
-  for (const Change& c : comparison.changes) {
-    if (!c.beyond_limits) continue;
-    std::ostringstream text;
-    text << verdict_name(c.verdict) << ' ' << c.pose_class << ' ' << c.candidate << ' '
-         << c.measure;
-    result.push_back(text.str());
-  }
-  return result;
-}
-
 /// The small report and what became of it.
-Comparison compared_with(const json& now) { return compare(small_report(), now, {}); }
+Comparison compared_with(const json& now) { return compare(report_of_rows(), now, {}); }
 std::vector<std::string> changes_to(const json& now) { return changes(compared_with(now)); }
 
-std::string remarks(const Comparison& comparison) {
-  std::string text;
-  for (const std::string& remark : comparison.remarks) text += remark + '\n';
-  return text;
-}
-
 TEST(Compare, OfAReportWithItselfFindsNothing) {
-  const Comparison c = compare(small_report(), small_report(), {});
+  const Comparison c = compare(report_of_rows(), report_of_rows(), {});
   EXPECT_TRUE(c.changes.empty());
   EXPECT_TRUE(c.remarks.empty());
   EXPECT_FALSE(c.has_regressed());
@@ -113,7 +31,7 @@ TEST(Compare, OfAReportWithItselfFindsNothing) {
 }
 
 TEST(Compare, NamesPairClassCandidateAndFactorOfALargerError) {
-  json now = small_report();
+  json now = report_of_rows();
   now["results"][1] = row("rim-face", "mine", 80, 3e-6, 200);
   const Comparison c = compared_with(now);
   EXPECT_THAT(changes(c), testing::UnorderedElementsAre("worse rim-face mine depth error, median",
@@ -126,48 +44,49 @@ TEST(Compare, NamesPairClassCandidateAndFactorOfALargerError) {
                                   "mine, cylinder-box: worse\n"
                                   "  rim-face  depth error, median 1.0e-07 -> 3.0e-07 (x 3)\n"));
   // The other way round it is better, and within wider limits nothing to report.
-  const Comparison back = compare(now, small_report(), {});
+  const Comparison back = compare(now, report_of_rows(), {});
   EXPECT_EQ(changes(back).front().substr(0, 6), "better");
   EXPECT_FALSE(back.has_regressed());
   CompareLimits wide;
   wide.error_factor = 3.5;
-  EXPECT_FALSE(compare(small_report(), now, wide).has_regressed());
-  EXPECT_THAT(comparison_text(compare(small_report(), now, wide)), HasSubstr("3 smaller changes"));
+  EXPECT_FALSE(compare(report_of_rows(), now, wide).has_regressed());
+  EXPECT_THAT(comparison_text(compare(report_of_rows(), now, wide)),
+              HasSubstr("3 smaller changes"));
 }
 
 TEST(Compare, ADeepestPointThatLosesItsDepthIsARegressionWhereBothReportsKnowIt) {
   const auto with_deepest = [](double max) {
-    json report = small_report();
+    json report = report_of_rows();
     report["results"][1]["deepest_error"] = {{"median", 0}, {"p99", 1e-9}, {"max", max}};
     return report;
   };
   EXPECT_THAT(changes(compare(with_deepest(1e-9), with_deepest(1e-3), {})),
               ElementsAre("worse rim-face mine deepest point's error, max"));
-  EXPECT_TRUE(compare(small_report(), with_deepest(1e-3), {}).changes.empty());
-  EXPECT_TRUE(compare(with_deepest(1e-3), small_report(), {}).changes.empty());
+  EXPECT_TRUE(compare(report_of_rows(), with_deepest(1e-3), {}).changes.empty());
+  EXPECT_TRUE(compare(with_deepest(1e-3), report_of_rows(), {}).changes.empty());
 }
 
 TEST(Compare, OfACandidateThatWasStoppedCountsChangesBeyondChanceAlone) {
   // Of 100, so many agree before the third time-out.
   const auto stopped = [](int agree) {
-    json report = small_report();
+    json report = report_of_rows();
     json& row = report["results"][1];
     row["outcomes"] = {{"agree", agree}, {"timed-out", 3}, {"not-asked", 97 - agree}};
     row["depth_error"]["max"] = 1e-3;
     return report;
   };
   // 80% before; at least 70% now: within three deviations.
-  const Comparison c = compare(small_report(), stopped(70), {});
+  const Comparison c = compare(report_of_rows(), stopped(70), {});
   EXPECT_TRUE(c.changes.empty());
   EXPECT_THAT(remarks(c), HasSubstr("mine times out so often"));
-  const Comparison far = compare(small_report(), stopped(33), {});
+  const Comparison far = compare(report_of_rows(), stopped(33), {});
   EXPECT_THAT(changes(far), ElementsAre("worse rim-face mine agreement"));
   EXPECT_DOUBLE_EQ(far.changes[0].after, 0.33);
   EXPECT_TRUE(compare(stopped(33), stopped(33), {}).changes.empty());
 }
 
 TEST(Compare, OfAnOlderReportThatHadAskedASampleTakesItsAnswersAsTheyAre) {
-  json old = small_report(), now = small_report();
+  json old = report_of_rows(), now = report_of_rows();
   old["results"][1]["outcomes"] = {{"agree", 33}, {"timed-out", 7}, {"not-asked", 60}};
   old["results"][1]["represented"] = {{"agree", 50}, {"timed-out", 10}};
   now["results"][1]["outcomes"] = {{"agree", 30}, {"timed-out", 3}, {"not-asked", 67}};
@@ -175,7 +94,7 @@ TEST(Compare, OfAnOlderReportThatHadAskedASampleTakesItsAnswersAsTheyAre) {
 }
 
 TEST(Compare, RoundingIsNoChange) {
-  json old = small_report(), now = small_report();
+  json old = report_of_rows(), now = report_of_rows();
   old["results"][1] = row("rim-face", "mine", 80, 0, 200);
   now["results"][1] = row("rim-face", "mine", 80, 4e-15, 200);
   EXPECT_TRUE(compare(old, now, {}).changes.empty());
@@ -184,7 +103,7 @@ TEST(Compare, RoundingIsNoChange) {
 }
 
 TEST(Compare, AnErrorBeyondAllOthersHasAFactor) {
-  json now = small_report();
+  json now = report_of_rows();
   now["results"][1]["depth_error"]["max"] = 1e308;
   const Comparison c = compared_with(now);
   ASSERT_EQ(c.changes.size(), 1u);
@@ -192,22 +111,22 @@ TEST(Compare, AnErrorBeyondAllOthersHasAFactor) {
 }
 
 TEST(Compare, LostAgreementIsARegressionUnlessAllowed) {
-  json now = small_report();
+  json now = report_of_rows();
   now["results"][1] = row("rim-face", "mine", 79, 1e-6, 200);
   const Comparison c = compared_with(now);
   EXPECT_THAT(changes(c), ElementsAre("worse rim-face mine agreement"));
   CompareLimits limits;
   limits.agreement = 0.98;
-  EXPECT_FALSE(compare(small_report(), now, limits).has_regressed());
+  EXPECT_FALSE(compare(report_of_rows(), now, limits).has_regressed());
   // None before, some now.
-  json none = small_report();
+  json none = report_of_rows();
   none["results"][1] = row("rim-face", "mine", 0, 1e-6, 200);
   EXPECT_THAT(changes(compare(none, now, {})), ElementsAre("better rim-face mine agreement"));
   EXPECT_TRUE(compare(now, none, {}).has_regressed());
 }
 
 TEST(Compare, TheVerdictIsOfAllClassesThatAreWorse) {
-  json now = small_report();
+  json now = report_of_rows();
   now["results"][1] = row("rim-face", "mine", 60, 1e-3, 200);
   now["results"][3] = row("touching", "mine", 70, 1e-6, 200);
   EXPECT_THAT(
@@ -219,7 +138,7 @@ TEST(Compare, TheVerdictIsOfAllClassesThatAreWorse) {
 }
 
 TEST(Compare, TheTextSaysOfMoreThanTwentyClassesHowManyThereAre) {
-  json old = small_report(), now = small_report();
+  json old = report_of_rows(), now = report_of_rows();
   for (int i = 0; i < 30; ++i) {
     const std::string name = "z" + std::to_string(i);
     old["results"].push_back(row(name.c_str(), "mine", 90, 1e-6, 200));
@@ -231,18 +150,18 @@ TEST(Compare, TheTextSaysOfMoreThanTwentyClassesHowManyThereAre) {
 }
 
 TEST(Compare, ALostRoutineIsARegression) {
-  json now = small_report();
+  json now = report_of_rows();
   now["results"][1]["outcomes"] = {{"unsupported", 100}};
   const Comparison c = compared_with(now);
   EXPECT_THAT(changes(c), ElementsAre("worse rim-face mine has a routine"));
   EXPECT_TRUE(c.has_regressed());
   EXPECT_THAT(comparison_text(c), testing::StartsWith("mine: worse on cylinder-box, 1 class, has "
                                                       "a routine yes -> no\n"));
-  EXPECT_FALSE(compare(now, small_report(), {}).has_regressed());
+  EXPECT_FALSE(compare(now, report_of_rows(), {}).has_regressed());
 }
 
 TEST(Compare, TimesCountAsMultiplesOfTheBaseline) {
-  json now = small_report();
+  json now = report_of_rows();
   // A machine at half the speed: all times double, no ratio changes.
   for (const char* list : {"results", "summary"}) {
     for (json& r : now[list]) {
@@ -254,18 +173,18 @@ TEST(Compare, TimesCountAsMultiplesOfTheBaseline) {
   EXPECT_TRUE(compared_with(now).changes.empty());
   CompareLimits other;
   other.baseline = "mine";
-  EXPECT_TRUE(compare(small_report(), now, other).changes.empty());
+  EXPECT_TRUE(compare(report_of_rows(), now, other).changes.empty());
   now["results"][1] = row("rim-face", "mine", 80, 1e-6, 400);
   EXPECT_THAT(changes_to(now), ElementsAre("slower rim-face mine time"));
   EXPECT_FALSE(compared_with(now).has_regressed());
   CompareLimits strict;
   strict.time_counts = true;
-  EXPECT_TRUE(compare(small_report(), now, strict).has_regressed());
-  EXPECT_FALSE(compare(now, small_report(), strict).has_regressed());
+  EXPECT_TRUE(compare(report_of_rows(), now, strict).has_regressed());
+  EXPECT_FALSE(compare(now, report_of_rows(), strict).has_regressed());
 }
 
 TEST(Compare, TimesWhoseSpreadsReachWithinTheFactorAreNoChange) {
-  json now = small_report();
+  json now = report_of_rows();
   now["results"][1] = row("rim-face", "mine", 80, 1e-6, 400);
   now["results"][1]["nanoseconds"]["ratio_low"] = 3;  // before: 1.98 to 2.02
   EXPECT_TRUE(compared_with(now).changes.empty());
@@ -274,12 +193,12 @@ TEST(Compare, TimesWhoseSpreadsReachWithinTheFactorAreNoChange) {
 TEST(Compare, WithoutTheBaselineTimesAreNotCompared) {
   CompareLimits limits;
   limits.baseline = "havok";
-  const Comparison c = compare(small_report(), small_report(), limits);
+  const Comparison c = compare(report_of_rows(), report_of_rows(), limits);
   EXPECT_THAT(remarks(c), HasSubstr("havok is not in both"));
 }
 
 TEST(Compare, CountsInstructionsWhereBothHaveThem) {
-  json old = small_report(), now = small_report();
+  json old = report_of_rows(), now = report_of_rows();
   old["results"][1]["nanoseconds"]["instructions"] = 1000;
   now["results"][1]["nanoseconds"]["instructions"] = 1600;
   EXPECT_THAT(changes(compare(old, now, {})), ElementsAre("slower rim-face mine instructions"));
@@ -287,7 +206,7 @@ TEST(Compare, CountsInstructionsWhereBothHaveThem) {
 }
 
 TEST(Compare, SaysWhatIsOnlyInOne) {
-  json now = small_report();
+  json now = report_of_rows();
   now["candidates"][1]["name"] = "yours";
   now["results"] = {row("rim-face", "bullet", 90, 1e-3, 100), row("lying", "yours", 1, 1, 1)};
   now["summary"][1]["candidate"] = "yours";
@@ -301,22 +220,22 @@ TEST(Compare, SaysWhatIsOnlyInOne) {
 }
 
 TEST(Compare, NamesTheRowsThatOneOfThemLacks) {
-  json now = small_report();
+  json now = report_of_rows();
   now["results"].erase(3);
   const std::string rows = " report, not compared: rows cylinder-box/touching of mine.";
   EXPECT_THAT(remarks(compared_with(now)), HasSubstr("Only in the old" + rows));
-  EXPECT_THAT(remarks(compare(now, small_report(), {})), HasSubstr("Only in the new" + rows));
+  EXPECT_THAT(remarks(compare(now, report_of_rows(), {})), HasSubstr("Only in the new" + rows));
 }
 
 TEST(Compare, SaysThatItTakesYourOwnConfigurationsForTheSame) {
-  json report = small_report();
+  json report = report_of_rows();
   for (const int i : {2, 3}) report["results"][i]["class"] = "given";
   EXPECT_THAT(remarks(compare(report, report, {})),
               HasSubstr("as if both reports had the same file"));
 }
 
 TEST(Compare, SaysWhatElseDiffers) {
-  json now = small_report();
+  json now = report_of_rows();
   now["seed"] = 2;
   now["tolerance"] = 1e-3;
   now["partial"] = true;
@@ -331,7 +250,7 @@ TEST(Compare, SaysWhatElseDiffers) {
 }
 
 TEST(Compare, OfOtherConfigurationsTakesPairsAsAWholeBeyondChance) {
-  json now = small_report();
+  json now = report_of_rows();
   now["seed"] = 2;
   now["results"][1] = row("rim-face", "mine", 10, 1, 200);     // no matter
   now["summary"][1] = row("everyday", "mine", 70, 1e-6, 200);  // 80 of 100 or 70: chance
@@ -345,7 +264,7 @@ TEST(Compare, OfOtherConfigurationsTakesPairsAsAWholeBeyondChance) {
 json report_of_errors(int seed, int small, int large) {
   const auto at_rank = [&](int rank) { return rank <= small ? 1e-7 : 1e-3; };
   const int n = small + large;
-  json report = small_report();
+  json report = report_of_rows();
   report["seed"] = seed;
   for (json& each : report["summary"]) {
     each["count"] = n;
@@ -378,7 +297,7 @@ TEST(Compare, APercentileOfOtherConfigurationsHasChangedWhereMoreErrorsAreLarge)
 }
 
 TEST(Compare, OfOtherConfigurationsTakesEveryGroupOfWhichBothReportsHaveAllClasses) {
-  json now = small_report();
+  json now = report_of_rows();
   now["seed"] = 2;
   now["summary"][1] = row("everyday", "mine", 50, 1e-6, 200);
   for (const char* list : {"results", "summary"}) {  // another pair, and with it all pairs
@@ -386,7 +305,7 @@ TEST(Compare, OfOtherConfigurationsTakesEveryGroupOfWhichBothReportsHaveAllClass
         row(list == std::string("results") ? "cap" : "everyday", "mine", 1, 1, 200));
     now[list].back()["pair"] = "cylinder-sphere";
   }
-  json old = small_report();
+  json old = report_of_rows();
   for (json* report : {&old, &now}) {
     (*report)["summary"].push_back(row("everyday", "mine", report == &old ? 80 : 10, 1, 200));
     (*report)["summary"].back()["pair"] = "all";
@@ -402,7 +321,7 @@ TEST(Compare, OfOtherConfigurationsTakesEveryGroupOfWhichBothReportsHaveAllClass
 }
 
 TEST(Compare, AReportOfTheOldSchemaIsComparedByClassesUnderTheirNamesOfToday) {
-  json old = small_report(), now = small_report();
+  json old = report_of_rows(), now = report_of_rows();
   old["schema"] = 1;
   old["results"][0]["class"] = old["results"][1]["class"] = "near-parallel-1e-6";
   now["results"][0]["class"] = now["results"][1]["class"] = "parallel+tilted-1e-6";
@@ -419,7 +338,7 @@ TEST(Compare, AReportOfTheOldSchemaIsComparedByClassesUnderTheirNamesOfToday) {
 }
 
 TEST(Compare, AReportOfTheOldJudgeIsComparedByWhatMeansTheSame) {
-  json old = small_report(), now = small_report();
+  json old = report_of_rows(), now = report_of_rows();
   for (json* report : {&old, &now}) {
     (*report)["results"][1]["normal_regret"] = {{"median", 0}, {"p99", 1e-3}, {"max", 1e-3}};
   }
@@ -447,7 +366,7 @@ TEST(Compare, AReportOfTheOldJudgeIsComparedByWhatMeansTheSame) {
 }
 
 TEST(Compare, AClassOfAnotherCountIsOfOtherConfigurations) {
-  json now = small_report();
+  json now = report_of_rows();
   for (const int i : {0, 1}) {
     now["results"][i]["count"] = 50;
     now["results"][i]["outcomes"] = {{"agree", 50}};
@@ -459,7 +378,7 @@ TEST(Compare, AClassOfAnotherCountIsOfOtherConfigurations) {
 
 /// A report of answers that came in a file, to configurations with this digest.
 json report_of_given(const char* pose_class, const json& digest, int agree) {
-  json report = small_report();
+  json report = report_of_rows();
   const char* const group = pose_class == std::string("given") ? "given" : "everyday";
   report["results"] = json::array({row(pose_class, "mine", agree, 1e-6, 200)});
   report["summary"] = json::array({row(group, "mine", agree, 1e-6, 200)});
@@ -504,7 +423,7 @@ TEST(Compare, AnswersToOtherConfigurationsAreNotCompared) {
 }
 
 TEST(Compare, NamesTheFirstOfManyClasses) {
-  json now = small_report();
+  json now = report_of_rows();
   for (int i = 0; i < 30; ++i) {
     now["results"].push_back(row(("z" + std::to_string(i)).c_str(), "mine", 1, 1, 1));
   }
@@ -512,28 +431,28 @@ TEST(Compare, NamesTheFirstOfManyClasses) {
 }
 
 TEST(Compare, RefusesReportsWithNothingInCommon) {
-  json now = small_report();
+  json now = report_of_rows();
   now["results"] = now["summary"] = json::array();
   EXPECT_THROW(compared_with(now), InvalidInput);
 }
 
 TEST(Compare, SaysThatNeitherReportHasAnAnswer) {
-  json report = small_report();
+  json report = report_of_rows();
   for (const char* list : {"results", "summary"}) {
     for (json& r : report[list]) r["outcomes"] = {{"unsupported", 100}};
   }
   EXPECT_THAT([&] { compare(report, report, {}); },
               ThrowsMessage<InvalidInput>(HasSubstr("without a scored answer, as OLD is")));
-  EXPECT_TRUE(compare(small_report(), report, {}).has_regressed());
+  EXPECT_TRUE(compare(report_of_rows(), report, {}).has_regressed());
 }
 
 TEST(Compare, TextFitsIntoEightyColumns) {
-  json now = small_report();
+  json now = report_of_rows();
   now["seed"] = 2;
   now["machine"]["compiler"] = std::string(30, 'x') + ' ' + std::string(40, 'y');
   now["summary"][1] = row("perpendicular+tilted-1e-15", "capsule-circumscribed", 10, 1, 500);
   now["summary"][1]["pair"] = "cylinder-cylinder";
-  json old = small_report();
+  json old = report_of_rows();
   for (json* report : {&now, &old}) {
     (*report)["candidates"][1]["name"] = "capsule-circumscribed";
     for (const int i : {1, 3}) (*report)["results"][i]["candidate"] = "capsule-circumscribed";
@@ -545,7 +464,7 @@ TEST(Compare, TextFitsIntoEightyColumns) {
 }
 
 TEST(Compare, WritesEveryChangeAsJson) {
-  json now = small_report();
+  json now = report_of_rows();
   now["results"][1]["outcomes"] = {{"unsupported", 100}};
   now["summary"][1] = row("everyday", "mine", 80, 1e-6, 400);
   const json written = json::parse(comparison_json(compared_with(now)));
@@ -563,125 +482,6 @@ TEST(Compare, WritesEveryChangeAsJson) {
   EXPECT_EQ(lost["beyond_limits"], true);
   EXPECT_EQ(written["changes"][1]["verdict"], "slower");
   EXPECT_EQ(written["changes"][1]["class"], "everyday");
-}
-
-/// The plug-in of testing/sabotage.cpp, worse than it is by this number.
-json report_of_declining(const char* by, std::uint64_t seed = 1) {
-  add_test_plugin("touchstone-sabotage.so");
-  setenv("TOUCHSTONE_DECLINE", by, 1);
-  Campaign c{.pairs = {Pair::plane},
-             .classes = {"lying", "standing", "general-shallow"},
-             .candidates = find_candidates({"bullet", "declining"}),
-             .count = 20,
-             .seed = seed};
-  json report = to_json(make_report(c, "x"));
-  unsetenv("TOUCHSTONE_DECLINE");
-  return report;
-}
-
-TEST(Compare, TwoRunsOfTheSameCodeShowNoChange) {
-  const Comparison c = compare(report_of_declining("1"), report_of_declining("1"), {});
-  EXPECT_TRUE(c.changes.empty()) << comparison_text(c);
-  EXPECT_TRUE(c.remarks.empty()) << remarks(c);
-}
-
-/// Of engines whose errors are of all sizes, a report of few configurations.
-json report_of_seed(std::uint64_t seed) {
-  Campaign c{.pairs = {Pair::plane, Pair::box},
-             .classes = {"lying", "general-shallow", "touching", "rim-face"},
-             .candidates = find_candidates({"reference", "bullet", "ode"}),
-             .count = 3,
-             .is_timed = false,
-             .seed = seed};
-  return to_json(make_report(c, "x"));
-}
-
-TEST(Compare, TenPairsOfSeedsOfTheSameCodeShowNoChange) {
-  json before = report_of_seed(1);
-  for (std::uint64_t seed = 2; seed <= 11; ++seed) {
-    json after = report_of_seed(seed);
-    const Comparison c = compare(before, after, {});
-    EXPECT_TRUE(c.changes.empty()) << comparison_text(c);
-    before = std::move(after);
-  }
-}
-
-TEST(Compare, OfOtherConfigurationsFindsADegradedPluginByItsGroup) {
-  EXPECT_THAT(changes(compare(report_of_declining("1"), report_of_declining("10000", 2), {})),
-              testing::Contains("worse degenerate declining depth error, p99"));
-}
-
-TEST(Compare, FindsADegradedPluginByPairClassAndFactor) {
-  const json before = report_of_declining("1");
-  const Comparison c = compare(before, report_of_declining("8"), {});
-  const auto worse = changes(c);
-  EXPECT_THAT(worse, testing::Contains("worse lying declining depth error, p99"));
-  for (const std::string& change : worse) EXPECT_THAT(change, HasSubstr(" lying declining "));
-  for (const Change& change : c.changes) {
-    EXPECT_EQ(change.pair, "cylinder-plane");
-    EXPECT_NEAR(change.factor.value(), 8, 0.01);
-  }
-  const Comparison slow = compare(before, report_of_declining("-1"), {});
-  EXPECT_THAT(changes(slow), testing::Contains("slower everyday declining time"));
-  for (const std::string& change : changes(slow)) {
-    EXPECT_THAT(change, testing::AllOf(testing::StartsWith("slower "), HasSubstr(" declining ")));
-  }
-}
-
-/// Three releases: the second broke the class touching and gained on the other, the third mended
-/// it.
-Report three_releases() {
-  json report = small_report();
-  report["candidates"] = json::array();
-  report["results"] = report["summary"] = json::array();
-  constexpr struct {
-    const char* name;
-    int touching, rim_face;
-  } releases[] = {{"mine@0.9", 90, 50}, {"mine@0.10", 30, 54}, {"mine@1.0", 95, 54}};
-  for (const auto& [name, touching, rim_face] : releases) {
-    report["candidates"].push_back({{"name", name}, {"version", "1"}, {"settings", ""}});
-    report["results"].push_back(row("touching", name, touching, 1e-6, 200));
-    report["results"].push_back(row("rim-face", name, rim_face, 1e-6, 200));
-    report["summary"].push_back(row("everyday", name, (touching + rim_face) / 2, 1e-6, 200));
-    report["summary"].push_back(report["summary"].back());
-    report["summary"].back()["pair"] = "all";
-  }
-  Report result = report_from_text(report.dump(), "report");
-  result.history = History{"mine", release_steps(result, "mine")};
-  return result;
-}
-
-TEST(History, NamesTheReleaseThatBrokeAndTheOneThatMendedAClass) {
-  const Report report = three_releases();
-  EXPECT_THAT(releases_of(report, "mine"), ElementsAre("mine@0.9", "mine@0.10", "mine@1.0"));
-  EXPECT_TRUE(releases_of(report, "min").empty());
-  const std::vector<ReleaseStep>& steps = report.history->steps;
-  ASSERT_EQ(steps.size(), 2u);  // four answers more in a hundred are none
-  for (const ReleaseStep& step : steps) EXPECT_EQ(step.pose_class, "touching");
-  EXPECT_EQ(steps[0].candidate, "mine@0.10");
-  EXPECT_NEAR(steps[0].before, 0.9, 1e-12);
-  EXPECT_NEAR(steps[0].after, 0.3, 1e-12);
-  EXPECT_EQ(steps[1].candidate, "mine@1.0");
-  const std::string text = history_text(report);
-  EXPECT_THAT(text, HasSubstr("release   everyday      ns  classes\n"
-                              "mine@0.9      70.0     200  -\n"
-                              "mine@0.10     42.0     200  broke 1\n"
-                              "mine@1.0      74.0     200  mended 1\n"));
-  EXPECT_THAT(text, HasSubstr("cylinder-box\n"
-                              "  mine@0.10 broke touching: 90.0% -> 30.0%\n"
-                              "  mine@1.0 mended touching: 30.0% -> 95.0%\n"));
-  std::istringstream lines(text);
-  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80u) << line;
-  EXPECT_EQ(to_json(report)["history"]["steps"][1]["after"], 0.95);
-  EXPECT_THAT(history_page(report), testing::Not(HasSubstr("/* main */")));
-}
-
-TEST(History, AReleaseIsComparedUnderItsEnginesName) {
-  const Report report = three_releases();
-  const Comparison c = touchstone::compare(part_of(report, {{"mine@0.9", "mine"}}),
-                                           part_of(report, {{"mine@0.10", "mine"}}), {});
-  EXPECT_THAT(changes(c), testing::Contains("worse touching mine agreement"));
-  EXPECT_TRUE(c.has_regressed());
 }
 
 }  // namespace
