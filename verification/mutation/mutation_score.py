@@ -146,8 +146,11 @@ class Library:
         objects = list(self.routine_objects)
         # The plug-in of our own routines, under a name that is not taken.
         plugin = self.tree / "planted.cpp"
-        plugin.write_text((ROOT / "candidates" / "reference.cpp").read_text().replace(
-            '{"reference",', '{"planted",'))
+        text = (ROOT / "candidates" / "reference.cpp").read_text()
+        named = 'name = "reference"'
+        if named not in text:
+            raise BuildFailed(f"candidates/reference.cpp: has no {named}")
+        plugin.write_text(text.replace(named, 'name = "planted"'))
         for source in [HERE / "routines.cpp"] + ([] if self.rest else [plugin]):
             target = self.objects / f"{source.parent.name}-{source.name}.o"
             errors = self.compile_to(target, source, [
