@@ -44,7 +44,7 @@ class FirstZeroSearch {
   /// Of the next moments, asks at(t) until the first zero is known or none is proven.
   template <class At>
   FirstZero find(At at) {
-    // 114 bring sweeps of 1e6 sizes within rounding (proofs.md); 31 have been needed.
+    // 114 bring sweeps of 1e6 sizes within rounding (proofs.md); 47 have been needed.
     constexpr int max_moments = 200;
     for (int i = 0; i < max_moments; ++i) {
       if (is_proven_positive()) return {false, left_};
