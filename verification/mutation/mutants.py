@@ -171,8 +171,10 @@ def plant_operators(s):
             s.add(f"{symbol} exchanged", at,
                   (found.end(), found.end(), " ::touchstone::planted::Exchanged{{{0}}} " + symbol))
     for found in s.matches(r"(?<=[(,=?:{+*/\-] )-(?=[\w(])|(?<=[(\[{])-(?=[\w(])|(?<=return )-(?=[\w(])"):
+        # What is divided by −b is divided by the sign and by b.
+        operator = "/" if s.source[found.start() - 2] == "/" else "*"
         s.add("minus left out", found.start(),
-              (found.start(), found.end(), "::touchstone::planted::sign({0}) * "))
+              (found.start(), found.end(), f"::touchstone::planted::sign({{0}}) {operator} "))
 
 
 def plant_functions(s):
