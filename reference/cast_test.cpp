@@ -205,15 +205,40 @@ TEST(Cast, AGrazeTakesFewMoments) {
 }
 
 TEST(Cast, AMissIsToldFromWhereAIsNearest) {
-  // A ball passes another by 8e-12 m; the normal's rounding leaves a slope, along which the next
-  // moment is a kilometre away, where rounding is 2e-11 m.
-  const auto at = [](double t) -> Moment {
-    const double along = 16e3 * (t - 0.5), apart = std::hypot(25 + 8e-12, along);
-    return {t, {apart - 25, Vec3::UnitX()}, (apart - 25) / 4, 4e3 * along / apart, 60 + 2 * apart};
-  };
-  Moment nearest = at(0.5);
-  nearest.slope = -2.5e-11;
-  EXPECT_FALSE(FirstZeroSearch(nearest).find(at).is_reached);
+  // A ball passes another by `gap`; the normal's rounding leaves a slope, along which the next
+  // moment is a kilometre away, where the height is wrong by 6e-12 m: rounding may make 2e-11.
+  for (const double gap : {8e-12, 4e-12, 2e-12, 1.1e-12}) {
+    for (const double part : {0.0, 0x1p-48, -0x1p-48}) {
+      const auto at = [&](double t) -> Moment {
+        const double along = 16e3 * (t - 0.5), apart = std::hypot(25 + gap, along);
+        const double height = (1 + part) * (apart - 25);
+        return {t, {height, Vec3::UnitX()}, height / 4, 4e3 * along / apart, 60 + 2 * apart};
+      };
+      Moment nearest = at(0.5);
+      for (const double slope : {-2.5e-11, -1e-11, -5e-12}) {
+        nearest.slope = slope;
+        EXPECT_FALSE(FirstZeroSearch(nearest).find(at).is_reached) << gap << part << slope;
+      }
+    }
+  }
+}
+
+TEST(Cast, ATouchIsToldFromFarAway) {
+  // The same, but that the balls overlap by `depth`.
+  for (const double depth : {8e-12, 4e-12, 2e-12, 1.1e-12}) {
+    for (const double part : {0.0, 0x1p-48, -0x1p-48}) {
+      const auto at = [&](double t) -> Moment {
+        const double along = 16e3 * (t - 0.5), apart = std::hypot(25 - depth, along);
+        const double height = (1 + part) * (apart - 25);
+        return {t, {height, Vec3::UnitX()}, height / 4, 4e3 * along / apart, 60 + 2 * apart};
+      };
+      for (const double start : {0.0, 0.3, 0.4, 0.49, 0.499, 0.4999}) {
+        const FirstZero end = FirstZeroSearch(at(start)).find(at);
+        EXPECT_TRUE(end.is_reached) << depth << part << start;
+        EXPECT_LE(4 * end.at.height, 1e-12);
+      }
+    }
+  }
 }
 
 TEST(Cast, AMissIsToldFromFarAway) {

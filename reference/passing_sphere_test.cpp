@@ -1,7 +1,7 @@
 // Casts against spheres, which closed forms begin and end: sweeps made from where they pass or
 // touch, against the truth.
 //
-// TOUCHSTONE_COUNT sets how many are tried of each place, by default 300.
+// TOUCHSTONE_COUNT sets how many are tried of each place, by default 2000.
 #include "reference/passing_sphere.hpp"
 
 #include <cmath>
@@ -70,7 +70,7 @@ TEST_P(PassingSpheres, AreMetWhereTheyAre) {
   Random random(static_cast<std::uint64_t>(GetParam()) + 31);
   HeldCasts casts;
   int misses = 0;
-  const std::uint64_t count = tried_of_each(300);
+  const std::uint64_t count = tried_of_each(2000);
   for (std::uint64_t i = 0; i < count; ++i) {
     SCOPED_TRACE(i);
     const double gap = random.toss() ? 0 : random.sign() * random.power_of_ten(-16, 0);
