@@ -74,7 +74,7 @@ Cast cast(const Cylinder& a, const Pose& pose_a, const Vec3& sweep, const Other&
     if (passing.misses()) return {CastStatus::never, 1, moment(0).found.normal};
     if (passing.time() > 0 && passing.time() <= 1) {
       start = moment(passing.time());
-      // It was positive before, if it still falls: it is convex, and the bodies start apart.
+      // A distance that still falls was positive before: it is convex, and the bodies start apart.
       if (start.is_at_zero()) return {CastStatus::touch, start.t, start.found.normal};
     }
   }

@@ -204,11 +204,14 @@ TEST(Cast, AGrazeTakesFewMoments) {
   }
 }
 
+/// The parts of themselves by which heights are wrong: half of what rounding may make.
+constexpr double wrong_by[] = {0, 0x1p-48, -0x1p-48};
+
 TEST(Cast, AMissIsToldFromWhereAIsNearest) {
   // A ball passes another by `gap`; the normal's rounding leaves a slope, along which the next
   // moment is a kilometre away, where the height is wrong by 6e-12 m: rounding may make 2e-11.
   for (const double gap : {8e-12, 4e-12, 2e-12, 1.1e-12}) {
-    for (const double part : {0.0, 0x1p-48, -0x1p-48}) {
+    for (const double part : wrong_by) {
       const auto at = [&](double t) -> Moment {
         const double along = 16e3 * (t - 0.5), apart = std::hypot(25 + gap, along);
         const double height = (1 + part) * (apart - 25);
@@ -217,25 +220,8 @@ TEST(Cast, AMissIsToldFromWhereAIsNearest) {
       Moment nearest = at(0.5);
       for (const double slope : {-2.5e-11, -1e-11, -5e-12}) {
         nearest.slope = slope;
-        EXPECT_FALSE(FirstZeroSearch(nearest).find(at).is_reached) << gap << part << slope;
-      }
-    }
-  }
-}
-
-TEST(Cast, ATouchIsToldFromFarAway) {
-  // The same, but that the balls overlap by `depth`.
-  for (const double depth : {8e-12, 4e-12, 2e-12, 1.1e-12}) {
-    for (const double part : {0.0, 0x1p-48, -0x1p-48}) {
-      const auto at = [&](double t) -> Moment {
-        const double along = 16e3 * (t - 0.5), apart = std::hypot(25 - depth, along);
-        const double height = (1 + part) * (apart - 25);
-        return {t, {height, Vec3::UnitX()}, height / 4, 4e3 * along / apart, 60 + 2 * apart};
-      };
-      for (const double start : {0.0, 0.3, 0.4, 0.49, 0.499, 0.4999}) {
-        const FirstZero end = FirstZeroSearch(at(start)).find(at);
-        EXPECT_TRUE(end.is_reached) << depth << part << start;
-        EXPECT_LE(4 * end.at.height, 1e-12);
+        EXPECT_FALSE(FirstZeroSearch(nearest).find(at).is_reached)
+            << "by " << gap << ", part " << part << ", slope " << slope;
       }
     }
   }
@@ -253,6 +239,38 @@ TEST(Cast, AMissIsToldFromFarAway) {
   const auto [end, moments] = count_moments(at);
   EXPECT_FALSE(end.is_reached);
   EXPECT_LE(moments, 10);
+}
+
+TEST(Cast, AnEdgeFromFarAwayIsTouchedOrNot) {
+  // A comes from 35 km, where the height may be wrong by 1.2e-10 m, and leaves as steeply. The
+  // first moment is one on the way out.
+  for (const double lowest : {-2e-11, -1e-11, 1e-11, 2e-11}) {
+    for (const double part : wrong_by) {
+      const auto at = [&](double t) -> Moment {
+        const double left = 35e3 * (0.75 - t);
+        const double height = (1 + part) * std::abs(left) + lowest, slope = left > 0 ? -35e3 : 35e3;
+        return {t, {height, Vec3::UnitX()}, height / 4, slope / 4, 2 + 2 * std::abs(left)};
+      };
+      EXPECT_EQ(FirstZeroSearch(at(0)).find(at).is_reached, lowest < 0)
+          << "lowest " << lowest << ", part " << part;
+    }
+  }
+}
+
+TEST(Cast, AnEdgeOnTheWayOutIsNoTouch) {
+  // A starts above an edge, where rounding leaves a slope along which the next moment is 29 km
+  // away.
+  for (const double lowest : {1e-11, 1e-12}) {
+    for (const double part : wrong_by) {
+      const double fall = -1.2 * lowest;
+      const auto at = [&](double t) -> Moment {
+        const double height = (1 + part) * 35e3 * t + lowest, slope = t > 0 ? 35e3 : fall;
+        return {t, {height, Vec3::UnitX()}, height / 4, slope / 4, 2 + 2 * 35e3 * t};
+      };
+      EXPECT_FALSE(FirstZeroSearch(at(0)).find(at).is_reached)
+          << "lowest " << lowest << ", part " << part;
+    }
+  }
 }
 
 TEST(Cast, PassesNoEdgeBehindACurve) {

@@ -118,7 +118,9 @@ class FirstZeroSearch {
     if (!right_ || !(right_->height > right_->rounding())) return t;
     const double noise = margin_ * rounding(*right_);
     const double lo = left_.t + noise / right_->slope, hi = right_->t + noise / left_.slope;
-    const double between = std::min(std::max(t, lo < right_->t ? lo : t), hi > left_.t ? hi : t);
+    double between = t;
+    if (lo < right_->t) between = std::max(between, lo);
+    if (hi > left_.t) between = std::min(between, hi);
     margin_ = between == t ? 2 : 4 * margin_;
     return between;
   }
