@@ -204,7 +204,7 @@ TEST(Cast, AGrazeTakesFewMoments) {
   }
 }
 
-/// The parts of themselves by which heights are wrong: half of what rounding may make.
+/// The parts of themselves by which heights are wrong, less than what rounding may make.
 constexpr double wrong_by[] = {0, 0x1p-48, -0x1p-48};
 
 TEST(Cast, AMissIsToldFromWhereAIsNearest) {
