@@ -121,9 +121,9 @@ inline PosedPair<Cylinder> posed_pair(const Cylinder& a, const Pose& pose_a, con
 // of two, which rounds nothing, and the answer back. Nobody simulates such bodies, but a body that
 // has flown off must be answered with a number, not with NaN.
 
-/// Does no power of a length overflow or vanish? The largest are the eighth (`ellipse_normal` takes
-/// lengths of fourth powers): with all lengths within these bounds none leaves 1e-200 to 1e200,
-/// whichever lengths it multiplies.
+/// Does no power of a length overflow or vanish? The largest are the twelfth (`ellipse_normal`
+/// takes lengths of sixth powers): with all lengths within these bounds none leaves 1e-300 to
+/// 1e300, whichever lengths it multiplies.
 inline constexpr double min_length_in_range = 1e-25, max_length_in_range = 1e25;
 inline bool are_in_range(const Lengths& a, const Lengths& b) {
   return std::min(a.smallest, b.smallest) > min_length_in_range &&
