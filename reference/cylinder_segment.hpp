@@ -7,16 +7,15 @@
 #include "largest_gap.hpp"
 
 // The largest gap of a cylinder and a segment, which is what a capsule is less its radius, and a
-// hull's edge alone. It lies at one normal of five kinds. In the frame of both axes each has a
+// hull's edge alone. It lies at one normal of four kinds. In the frame of both axes each has a
 // closed form, but for the segment over a rim, which is a point against an ellipse:
 //
-//   cap_and_end       along the cylinder's axis: an end above a cap
-//   side_and_segment  across both axes: the segment crosses a side, or lies beside it
-//   side_and_end      across the cylinder's axis: an end beside a side
-//   rim_and_segment   across the segment: it crosses a rim
-//   rim_and_end       neither, only apart: an end off a rim
+//   cap_and_end      along the cylinder's axis: an end above a cap
+//   side             across that axis: the segment crosses a side, or it or its end lies beside it
+//   rim_and_segment  across the segment: it crosses a rim
+//   rim_and_end      neither, only apart: an end off a rim
 //
-// The first three prove themselves where the segment meets a smooth place of the cylinder its depth
+// The first two prove themselves where the segment meets a smooth place of the cylinder its depth
 // away from the rims: a ball of that radius fits behind it, so that no way out is shorter.
 
 namespace touchstone {
@@ -30,7 +29,7 @@ struct FoldedSegment {
 
 /// Does a point of the side, so far along the axis, lie its depth away from the ends?
 inline bool is_within_side(const FoldedSegment& p, double along, double gap) {
-  return std::abs(along) <= p.h1 - depth(gap) && depth(gap) <= p.r1;
+  return (std::abs(along) <= p.h1 - depth(gap)) & (depth(gap) <= p.r1);
 }
 
 // Each stage has nothing to say where it is clear that its gap is not above `best`.
@@ -43,29 +42,19 @@ inline StageResult cap_and_end(const FoldedSegment& p) {
           depth(gap) <= p.h1 && reach >= 0 && y * y + f.d3 * f.d3 <= reach * reach};
 }
 
-inline StageResult side_and_segment(const FoldedSegment& p, double best) {
+/// Of the segment the point nearest to A's axis as seen along that: where they cross, or an end.
+/// Parallel to the axis, all are, and the one nearest to A's centre counts.
+inline StageResult side(const FoldedSegment& p, double best) {
   const FoldedAxes& f = p.axes;
-  const double gap = f.d3 - p.r1;
-  if (gap <= best) return {};
   constexpr double flat = 1e-15;
-  if (f.s <= flat) {  // side by side, e3 through both axes
-    return {gap, 0, 0, 1,
-            std::abs(f.d2) <= flat * f.d3 &&
-                is_within_side(p, std::max(0.0, std::abs(f.d1) - p.h2), gap)};
-  }
-  const double along = f.d2 / f.s;
-  return {gap, 0, 0, 1, std::abs(along) <= p.h2 && is_within_side(p, f.d1 - f.c * along, gap)};
-}
-
-/// Of the segment the end towards A lies at (0, h2 s) across A's axis.
-inline StageResult side_and_end(const FoldedSegment& p, double best) {
-  const FoldedAxes& f = p.axes;
-  const double y = std::abs(f.d2) - p.h2 * f.s;
-  if (!(y > 0)) return {};
-  const double length = std::sqrt(y * y + f.d3 * f.d3), gap = length - p.r1;
+  const double beside = std::max(std::abs(f.d2) - p.h2 * f.s, 0.0);
+  const double length = std::sqrt(beside * beside + f.d3 * f.d3), gap = length - p.r1;
   if (gap <= best) return {};
-  return {gap, 0, std::copysign(y, f.d2) / length, f.d3 / length,
-          is_within_side(p, f.d1 - std::copysign(p.h2, f.d2) * f.c, gap)};
+  const double at = f.s > flat ? f.d2 / f.s : f.d1;
+  const double along = std::max(-p.h2, std::min(p.h2, at));
+  const bool is_proven = is_within_side(p, f.d1 - f.c * along, gap);
+  if (!(beside > 0)) return {gap, 0, 0, 1, is_proven};
+  return {gap, 0, std::copysign(beside, f.d2) / length, f.d3 / length, is_proven};
 }
 
 /// Seen along the segment the cap is an ellipse about the end of A's axis. `missed`, where it is
@@ -98,7 +87,9 @@ inline StageResult rim_and_end(const FoldedSegment& p, double best) {
     const double q1 = f.d1 - end * f.c, q2 = f.d2 - end * f.s, q3 = f.d3;
     const double above = std::abs(q1) - p.h1;
     const double radial = std::sqrt(q2 * q2 + q3 * q3), beside = radial - p.r1;
-    if (!(above > 0 && beside > 0)) continue;
+    // Else the other end is farther along n, as it always is where both bodies meet.
+    const double back = f.c * std::copysign(above, q1) * radial + f.s * beside * q2;
+    if (!((above > 0) & (beside > 0) & (end * back >= 0))) continue;
     const double distance = std::sqrt(above * above + beside * beside);
     if (distance <= best) continue;
     const double x = std::copysign(above, q1) / distance, across = beside / (radial * distance);
@@ -114,9 +105,7 @@ inline StageResult rim_and_end(const FoldedSegment& p, double best) {
 inline StageResult largest_gap(const FoldedSegment& p, EarlyExit exit, double* missed) {
   StageResult best = cap_and_end(p);
   if (exit.ends_with(best)) return best;
-  best.improve(side_and_segment(p, best.gap));
-  if (exit.ends_with(best)) return best;
-  best.improve(side_and_end(p, best.gap));
+  best.improve(side(p, best.gap));
   if (exit.ends_with(best)) return best;
   best.improve(rim_and_segment(p, best.gap, best.is_proven ? nullptr : missed));
   best.improve(rim_and_end(p, best.gap));

@@ -147,6 +147,24 @@ TEST(EarlyExits, AreRightOfRimsAcrossAnEdge) {
   }
 }
 
+// Of a segment off a rim the other end is farther along the way from its end to there, or less far,
+// by a hair or by much: only where it is less far that end has a normal of its own.
+TEST(EarlyExits, AreRightOfSegmentsAcrossTheWayToARim) {
+  for (std::uint64_t i = 0; i < 20 * count(); ++i) {
+    Random random(i);
+    const Cylinder a(random.power_of_ten(-1, 0), random.power_of_ten(-1, 0));
+    const double steep = random.uniform(0.01, 1.5), turn = random.uniform(-3, 3);
+    const double lean = random.sign() * random.power_of_ten(-16, 0);
+    const Vec3 away(std::cos(steep), 0, std::sin(steep)), tangent(0, 1, 0);
+    const Vec3 across = std::cos(turn) * tangent + std::sin(turn) * away.cross(tangent);
+    const Vec3 along = (across + lean * away).normalized();
+    const Capsule b(random.power_of_ten(-9, -3), random.power_of_ten(-1, 0));
+    const Vec3 end = Vec3(a.radius(), 0, a.half_length()) + random.power_of_ten(-6, 0) * away;
+    expect_the_truth(
+        {a, Pose(), b, Pose(end + b.half_length() * along, turn_between(Vec3::UnitZ(), along))}, i);
+  }
+}
+
 // Along the best normal of one edge another vertex is farther, or less far, by a hair: the edge's
 // distance is the hull's only where it is less far.
 TEST(EarlyExits, AreRightOfVerticesThatExceedAnEdgeByAHair) {
