@@ -27,18 +27,21 @@ struct CylinderInHullFrame {
 /// shorter than this.
 inline constexpr double few_digits = 0.1;
 
+/// A cap or generator lies across a normal with no larger a sine or cosine than that.
+inline constexpr double flat_cosine = 1e-15;
+
 /// A's point that faces the hull along n; of a cap or generator that lies across n, the one that is
 /// nearest to x.
 inline Vec3 point_facing(const CylinderInHullFrame& p, const Vec3& n, const Vec3& x) {
-  constexpr double flat = 1e-15;
   const double along = n.dot(p.u);
-  const double height = std::abs(along) > flat ? -std::copysign(p.h, along)
-                                               : std::clamp((x - p.d).dot(p.u), -p.h, p.h);
+  const double height = std::abs(along) > flat_cosine ? -std::copysign(p.h, along)
+                                                      : std::clamp((x - p.d).dot(p.u), -p.h, p.h);
   const Vec3 centre = p.d + height * p.u;
   Vec3 outward = n - along * p.u;
   const double sine = outward.norm();
   if (sine >= few_digits) return centre - p.r / sine * outward;
-  if (sine > flat) {  // on the rim or side, unless it is only what rounding leaves along the axis
+  if (sine >
+      flat_cosine) {  // on the rim or side, unless it is only what rounding leaves along the axis
     outward /= sine;
     outward -= outward.dot(p.u) * p.u;
     const double length = outward.norm();
@@ -48,28 +51,46 @@ inline Vec3 point_facing(const CylinderInHullFrame& p, const Vec3& n, const Vec3
   return centre + std::min(1.0, p.r / beside.norm()) * beside;
 }
 
-/// Which edge of a face a point is the farthest beyond, seen along its normal, and how far
-/// (negative within all of them).
-struct BeyondEdge {
+/// A along the normal of a face: the gap, and which edge of the face A's point that faces it is the
+/// farthest beyond, seen along the normal. How far, negative within all of them, is known times a
+/// scale, so that nothing waits until a root has divided.
+struct AtFace {
+  const Vec3& n;
+  double gap, beyond, scale = 1;
   int edge = 0;
-  double by = -std::numeric_limits<double>::infinity();
 
-  BeyondEdge(const CylinderInHullFrame& p, int face, const Vec3& x) {
+  AtFace(const CylinderInHullFrame& p, int face) : n(p.b.face_normal(face)) {
+    const double along = n.dot(p.u);
+    const Vec3 outward = n - along * p.u;
+    const double sine = outward.norm();
+    gap = p.b.height(p.d, face) - p.h * std::abs(along) - p.r * sine;
+    if (sine >= few_digits && std::abs(along) > flat_cosine) [[likely]] {
+      scale = sine;
+      find_edge(p, face, p.d - std::copysign(p.h, along) * p.u, p.r * outward);
+    } else {
+      const Vec3& middle = p.b.face_middles[static_cast<std::size_t>(face)];
+      find_edge(p, face, point_facing(p, n, middle), Vec3::Zero());
+    }
+  }
+  /// A's point lies on the face, its depth away from the edges, and A is that thick: with a disc
+  /// about that point no less than the depth leads out (proofs.md, "Convex bodies"), whether or not
+  /// there is anything of the hull behind the face.
+  bool is_proven(const CylinderInHullFrame& p) const {
+    const double delta = depth(gap);
+    return delta <= std::min(p.r, p.h) && beyond <= -delta * scale;
+  }
+
+ private:
+  /// Of the point x - arm / scale.
+  void find_edge(const CylinderInHullFrame& p, int face, const Vec3& x, const Vec3& arm) {
+    beyond = -std::numeric_limits<double>::infinity();
     for (const ConvexTables::FaceEdge& e : p.b.face_edges.of(face)) {
-      const double beyond = e.outward.dot(x - p.b.edges[e.edge].from);
-      edge = beyond > by ? e.edge : edge;  // branch-free: the winner is unpredictable
-      by = std::max(by, beyond);
+      const double by = scale * e.outward.dot(x - p.b.edges[e.edge].from) - e.outward.dot(arm);
+      edge = by > beyond ? e.edge : edge;  // branch-free: the winner is unpredictable
+      beyond = std::max(beyond, by);
     }
   }
 };
-
-/// A's point that faces the face lies on it, its depth away from the edges, and A is that thick:
-/// with a disc about that point no less than the depth leads out (proofs.md, "Convex bodies"),
-/// whether or not there is anything of the hull behind the face.
-inline bool is_proven_at_face(const CylinderInHullFrame& p, double gap, const BeyondEdge& nearest) {
-  const double delta = depth(gap);
-  return delta <= std::min(p.r, p.h) && nearest.by <= -delta;
-}
 
 /// Does a point lie so deep in A that a ball of this radius about it does, too? Then no normal of
 /// bodies that share it has less depth.

@@ -108,11 +108,6 @@ OfFeature face(const InHull& p, double best) {
   return {at(best, p.b.face_normal(found)), found};
 }
 
-/// The gap along the normal of a face.
-StageResult at_face(const InHull& p, int face) {
-  const Vec3& n = p.b.face_normal(face);
-  return at(p.b.height(p.d, face) - p.h * std::abs(n.dot(p.u)) - p.r * n.cross(p.u).norm(), n);
-}
 /// A face that is likely the best: with a polynomial for the sine, no root is waited for.
 int likely_face(const InHull& p) {
   using Four = ConvexTables::Four;
@@ -386,12 +381,12 @@ class Tried {
 /// to it the one to which a farther vertex leads.
 Best likely_face_or_edge(const InHull& p, EarlyExit exit) {
   const int face = likely_face(p);
-  Best best{at_face(p, face), p.b.face_middles[static_cast<std::size_t>(face)]};
+  const AtFace at_face(p, face);
+  Best best{at(at_face.gap, at_face.n), p.b.face_middles[static_cast<std::size_t>(face)]};
   if (exit.ends_with(best.found)) return best;
-  const BeyondEdge beyond(p, face, point_facing(p, best.found.normal(), best.place));
-  best.found.is_proven = is_proven_at_face(p, best.found.gap, beyond);
-  if (best.found.is_proven || !(beyond.by > 0)) return best;
-  const EdgeAlone first(p, beyond.edge);
+  best.found.is_proven = at_face.is_proven(p);
+  if (best.found.is_proven || !(at_face.beyond > 0)) return best;
+  const EdgeAlone first(p, at_face.edge);
   best.improve(first.found, first.edge.from);
   if (exit.ends_with(best.found)) return best;
   if (const int next = first.next(p); next >= 0) {

@@ -6,15 +6,6 @@
 
 namespace touchstone {
 
-FoldedAxes::FoldedAxes(const Vec3& axis1, const Vec3& axis2, const Product& product,
-                       const Vec3& difference) {
-  if (product.crosses()) {
-    fold_crossing(axis1, product, difference);
-  } else {
-    fold_nearly_parallel(axis1, axis2, product, difference);
-  }
-}
-
 // The product of nearly parallel axes has few digits left; across the first it must stay. What is
 // then left along the second is lost in the second's own rounding.
 void FoldedAxes::fold_nearly_parallel(const Vec3& u1, const Vec3& axis2, const Product& product,

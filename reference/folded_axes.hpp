@@ -39,7 +39,12 @@ struct FoldedAxes {
 
   FoldedAxes(const Vec3& axis1, const Vec3& axis2, const Vec3& d)
       : FoldedAxes(axis1, axis2, Product(axis1, axis2), d) {}
-  FoldedAxes(const Vec3& axis1, const Vec3& axis2, const Product& product, const Vec3& d);
+  FoldedAxes(const Vec3& axis1, const Vec3& axis2, const Product& product, const Vec3& d) {
+    if (product.crosses()) [[likely]]
+      fold_crossing(axis1, product, d);
+    else
+      fold_nearly_parallel(axis1, axis2, product, d);
+  }
   /// Folds axes as if they crossed; what comes of nearly parallel ones, `crosses` tells apart.
   /// Branch-free, for batches.
   static FoldedAxes of_crossing_axes(const Vec3& axis1, const Vec3& axis2, const Vec3& d) {
