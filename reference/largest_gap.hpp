@@ -12,7 +12,7 @@ namespace touchstone {
 /// (`powers_in_range`).
 inline double without_vanishing(double offset) {
   constexpr double vanishing = 1e-100;
-  return offset < vanishing && offset > -vanishing ? 0.0 : offset;
+  return std::abs(offset) < vanishing ? 0.0 : offset;
 }
 
 /// A `stop_above` for the largest clearance, and no other.
