@@ -108,23 +108,26 @@ OfFeature face(const InHull& p, double best) {
   return {at(best, p.b.face_normal(found)), found};
 }
 
-/// A face that is likely the best: with a polynomial for the sine, no root is waited for.
+/// A face that is likely the best: with a polynomial for the sine no root is waited for, nor, until
+/// the end, one of each four for another.
 int likely_face(const InHull& p) {
   using Four = ConvexTables::Four;
-  double best = -std::numeric_limits<double>::infinity();
-  int found = 0;
-  for (std::size_t i = 0; i < p.b.faces.size(); ++i) {
+  const auto gaps = [&](std::size_t i) -> Four {
     const ConvexTables::Planes& faces = p.b.faces[i];
     const Four cosine = faces.normal.along(p.u), squared = cosine * cosine;
-    const Four gaps =
-        faces.heights(p.d) - p.h * cosine.abs() - p.r * (1 - 0.5 * squared * (1 + squared));
+    return faces.heights(p.d) - p.h * cosine.abs() - p.r * (1 - 0.5 * squared * (1 + squared));
+  };
+  Four best = gaps(0);
+  std::array<int, 4> found{0, 1, 2, 3};
+  for (std::size_t i = 1; i < p.b.faces.size(); ++i) {
+    const Four others = gaps(i);
     for (int k = 0; k < 4; ++k) {  // branch-free: the winner is unpredictable
-      const bool is_better = gaps[k] > best;
-      best = is_better ? gaps[k] : best;
-      found = is_better ? 4 * static_cast<int>(i) + k : found;
+      found[k] = others[k] > best[k] ? 4 * static_cast<int>(i) + k : found[k];
     }
+    best = best.max(others);
   }
-  return std::min(found, p.b.face_count - 1);
+  const int low = best[1] > best[0], high = 2 + (best[3] > best[2]);
+  return std::min(best[high] > best[low] ? found[high] : found[low], p.b.face_count - 1);
 }
 
 /// An edge and the cylinder, seen along the edge: its axis is a line, each cap an ellipse.
