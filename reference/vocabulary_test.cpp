@@ -232,6 +232,24 @@ TEST(ConvexBody, ItsDirectionsAreThoseOfTheLeastEdges) {
   EXPECT_EQ(tables.face_normal(1), Vec3(0, -1, 0));
 }
 
+// The difference of two such vertices overflows.
+TEST(ConvexBody, ItsDirectionsAreThoseOfTheLargestLengths) {
+  constexpr double most = std::numeric_limits<double>::max();
+  const auto with_corners_at = [](double by) {
+    return Convex({{by, by, by}, {-by, -by, by}, {-by, by, -by}, {by, -by, -by}},
+                  {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}});
+  };
+  const Convex large = with_corners_at(most), one = with_corners_at(1);
+  for (int i = 0; i < 4; ++i) {
+    EXPECT_TRUE(large.tables().face_normal(i).isApprox(one.tables().face_normal(i), 1e-15)) << i;
+  }
+  for (std::size_t i = 0; i < one.tables().edges.size(); ++i) {
+    const auto &of_large = large.tables().edges[i], &of_one = one.tables().edges[i];
+    EXPECT_TRUE(of_large.along.isApprox(of_one.along, 1e-15)) << i;
+    EXPECT_TRUE(of_large.middle.isApprox(of_one.middle, 1e-15)) << i;
+  }
+}
+
 TEST(ConvexBody, RefusesWhatIsNoClosedConvexSurfaceAndNamesWhere) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const auto with = [](std::size_t i, const Vec3& v) {

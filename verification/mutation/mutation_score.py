@@ -9,11 +9,10 @@ over the lines of reference/ that hold code, seeded; a fault keeps its name and 
 long as its line stays the same. All are built into one library behind switches (planted.hpp), in
 which TOUCHSTONE_FAULT says which one is active.
 
-Four nets are held under each fault, at most 60 s of processor time each:
+Four nets are held under each fault, at most 60 s of processor time each (tests: 300 s):
   classes  the pose classes of the default report
   hostile  the hostile class, and many more of it without truths, on which the routines must agree
-  tests    the unit tests beside the routines that look at nothing else, neither truth nor pose
-           class, for faults that the first two do not find
+  tests    the unit tests beside the routines, for faults that the first two do not find
   laws     `touchstone check`, for faults that none of these finds
 The first two are mutation_probe's: every answer against the exact truth, and batches and single
 precision against single answers (judge.hpp), but for what is wrong without a fault. What no net finds is either listed in equivalent.json, with the reason why no
@@ -30,6 +29,7 @@ import json
 import os
 import pathlib
 import re
+import shlex
 import subprocess
 import sys
 
@@ -39,6 +39,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 REFERENCE = ROOT / "reference"
 LIMIT = 60  # seconds of each net
+TESTS_LIMIT = 5 * LIMIT  # of all tests
 CHECK_COUNT = "3"  # configurations of each pair, pose class and law
 C_INTERFACE = "touchstone_contacts.cpp"  # hands on; has a test of its own in C
 NOT_ROUTINES = ("_test.cpp", "_test.hpp", C_INTERFACE)
@@ -109,11 +110,10 @@ class Library:
         if not path.exists() or path.read_text() != text:
             path.write_text(text)
 
-    def compile(self, name):
+    def compile(self, name, flags=()):
         """The errors of one file, empty if there are none."""
         source = self.tree / "reference" / name
-        return self.compile_to(self.objects / (name + ".o"), source,
-                               ["-I", self.tree, "-I", ROOT])  # of the tests: poses of properties/
+        return self.compile_to(self.objects / (name + ".o"), source, ["-I", self.tree, *flags])
 
     def compile_to(self, target, source, flags):
         # With every header of the tree: which of them a file includes is not asked.
@@ -163,31 +163,31 @@ class Library:
             raise BuildFailed(done.stderr)
 
 
-def asks_the_oracle(file):
-    """Does it include something of oracle/, or a header of the tests that does?"""
-    included = re.findall(r'#include "([^"]+)"', file.read_text())
-    return any(name.startswith("oracle/") or name.endswith("_test.hpp") and asks_the_oracle(ROOT / name)
-               for name in included)
-
-
 class UnitTests:
-    """The unit tests beside the routines that include only these, built on a planted library: test
-    files that use another room would bring its copies of the routines' inline functions."""
+    """`reference_test` on a planted library. What it needs of other rooms is the build's; the linker
+    takes the first of several copies of an inline function, and that is the planted one."""
 
-    def __init__(self, library, work, jobs):
-        files = [p for p in sorted(REFERENCE.glob("*_test.cpp"))
-                 if not re.search(r'#include "(?!reference/|\w+\.hpp)', p.read_text()) and
-                 not asks_the_oracle(p)]
+    def __init__(self, library, build, work, jobs):
+        commands = json.loads((build / "compile_commands.json").read_text())
+        built = next(c for c in commands if "reference_test.dir/" in c["command"])["command"]
+        words = shlex.split(built)
+        flags = [w for before, w in zip([""] + words, words)
+                 if w.startswith(("-D", "-I", "-isystem")) or before == "-isystem"]
+        files = sorted(REFERENCE.glob("*_test.cpp"))
         for p in files:
             (library.tree / "reference" / p.name).write_text(p.read_text())
         with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-            errors = [text for text in pool.map(library.compile, [p.name for p in files]) if text]
+            errors = [text for text in pool.map(
+                lambda p: library.compile(p.name, flags), files) if text]
         if errors:
             raise BuildFailed("\n".join(errors))
         self.file = work / "planted_tests"
         objects = [library.objects / (p.name + ".o") for p in files]
-        done = run("g++", *objects, *library.routine_objects, *library.rest, "-lgtest_main",
-                   "-lgtest", "-lrapidcheck", "-lpthread", "-o", self.file)
+        link = run("ninja", "-C", build, "-t", "commands", "reference_test").stdout.splitlines()[-1]
+        libraries = [build / word if word.endswith(".a") else word for word in shlex.split(link)
+                     if re.search(r"\.a$|\.so|^-l", word) and "touchstone_reference" not in word]
+        done = run("g++", *objects, *library.routine_objects, *library.rest, *libraries,
+                   "-lpthread", "-o", self.file)
         if done.returncode != 0:
             raise BuildFailed(done.stderr)
 
@@ -195,7 +195,8 @@ class UnitTests:
         environment = dict(os.environ, TOUCHSTONE_FAULT=str(number), RC_PARAMS="seed=1")
         try:
             done = run(self.file, "--gtest_brief=1", "--gtest_fail_fast", env=environment,
-                       timeout=20 * LIMIT, preexec_fn=limit_processor_time)
+                       timeout=20 * TESTS_LIMIT,
+                       preexec_fn=lambda: limit_processor_time(TESTS_LIMIT))
         except subprocess.TimeoutExpired:
             return "does not end"
         if done.returncode < 0:
@@ -246,9 +247,9 @@ class Probe:
         return done.stdout.strip() or None
 
 
-def limit_processor_time():
+def limit_processor_time(seconds=LIMIT):
     import resource
-    resource.setrlimit(resource.RLIMIT_CPU, (LIMIT, LIMIT + 1))
+    resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds + 1))
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
 
 
@@ -344,7 +345,8 @@ def main():
     work.mkdir(parents=True, exist_ok=True)
     program = words.build.resolve() / "verification" / "mutation" / "mutation_probe"
     touchstone = words.build.resolve() / "touchstone"
-    for needed in [program] + ([touchstone] if words.laws == "yes" else []):
+    tests = words.build.resolve() / "reference" / "reference_test"
+    for needed in [program] + ([touchstone, tests] if words.laws == "yes" else []):
         if not needed.exists():
             print(f"{needed} is missing: cmake --build {words.build} --target {needed.name}",
                   file=sys.stderr)
@@ -365,7 +367,7 @@ def score(words, drawn, reasons, work, program, touchstone):
     for probe in probes:
         print(f"{probe.net}: {probe.baseline(library)}", flush=True)
 
-    tests = UnitTests(library, work, words.jobs) if words.laws == "yes" else None
+    tests = UnitTests(library, words.build.resolve(), work, words.jobs) if words.laws == "yes" else None
     if tests and (broken := tests.finding(0)):
         raise BuildFailed(f"a test fails without a fault: {broken}")
     if words.laws == "yes" and (broken := law_finding(touchstone, library, 0, None)):
