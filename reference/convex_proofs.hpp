@@ -18,10 +18,6 @@ struct CylinderInHullFrame {
   Vec3 d;          ///< the cylinder's centre
   Vec3 u;          ///< its axis
   double lengths;  ///< all together
-
-  double gap(const Vec3& n) const {
-    return d.dot(n) - h * std::abs(u.dot(n)) - r * u.cross(n).norm() - b.support(n);
-  }
 };
 /// Of what is left of a unit vector without its part along another one, rounding counts where it is
 /// shorter than this.

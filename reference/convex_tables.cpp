@@ -106,15 +106,16 @@ ConvexTables::Lists<Item> lists_of(const std::vector<std::vector<Item>>& owners)
 }
 
 /// Makes facets of faces. Starts at each face that is not yet in one, the largest first, and adds
-/// neighbours all of whose vertices are within `flat` of its plane.
+/// neighbours all of whose vertices are within `flat` of its plane, if they do not lean too far.
 class FacetMaker {
  public:
   FacetMaker(const std::vector<Vec3>& vertices, const std::vector<Convex::Face>& faces,
-             const ConvexTables& tables, double flat)
+             const ConvexTables& tables, double flat, double least_cosine)
       : vertices_(vertices),
         faces_(faces),
         tables_(tables),
         flat_(flat),
+        least_cosine_(least_cosine),
         facet_(faces.size(), -1) {}
 
   std::vector<ConvexTables::Facet> make() {
@@ -153,7 +154,9 @@ class FacetMaker {
   void grow(int member, int seed) {
     const Vec3 normal = tables_.face_normal(seed);
     for (const ConvexTables::FaceEdge& e : tables_.face_edges.of(member)) {
-      if (facet_[e.other] >= 0 || !(normal.dot(tables_.face_normal(e.other)) > 0)) continue;
+      if (facet_[e.other] >= 0 || !(normal.dot(tables_.face_normal(e.other)) > least_cosine_)) {
+        continue;
+      }
       const auto& corners = faces_[e.other].vertices;
       const bool is_flat = std::all_of(corners.begin(), corners.end(), [&](int v) {
         return std::abs(tables_.height(vertices_[v], seed)) <= flat_;
@@ -163,7 +166,18 @@ class FacetMaker {
       members_.push_back(e.other);
     }
   }
-  /// The members' outline; where that is no single one, the first face alone.
+  /// Seen along the normal, but for what is flat?
+  bool turns_left_everywhere(const std::vector<int>& corners, const Vec3& normal) const {
+    const std::size_t count = corners.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      const Vec3 &p = vertices_[corners[i]], &q = vertices_[corners[(i + 1) % count]];
+      const Vec3& r = vertices_[corners[(i + 2) % count]];
+      const Vec3 chord = r - p;
+      if (normal.cross(chord).dot(q - p) > flat_ * chord.norm()) return false;
+    }
+    return true;
+  }
+  /// The members' outline; where that is no single one, or not convex, the first face alone.
   ConvexTables::Facet outlined(int seed) {
     std::map<int, int> next;
     bool is_single = true;
@@ -177,30 +191,30 @@ class FacetMaker {
       }
     }
     ConvexTables::Facet facet;
-    for (std::size_t i = 0, at = 0; is_single && i < next.size(); ++i) {
-      if (i == 0) at = static_cast<std::size_t>(next.begin()->first);
-      facet.corners.push_back(static_cast<int>(at));
-      const auto onward = next.find(static_cast<int>(at));
-      is_single = onward != next.end();
-      if (is_single) at = static_cast<std::size_t>(onward->second);
-      is_single =
-          is_single && (static_cast<int>(at) == facet.corners.front()) == (i + 1 == next.size());
-    }
-    if (!is_single || facet.corners.size() < 3) {
-      for (const int f : members_) {
-        if (f != seed) facet_[f] = -1;
-      }
-      facet.corners = faces_[seed].vertices;
+    int at = next.empty() ? 0 : next.begin()->first;
+    for (std::size_t i = 0; is_single && i < next.size(); ++i) {
+      facet.corners.push_back(at);
+      at = next.at(at);  // as many edges lead to a vertex as from it
+      is_single = (at == facet.corners.front()) == (i + 1 == next.size());
     }
     facet.normal = tables_.face_normal(seed);
     facet.offset = tables_.support(facet.normal);
+    if (!is_single || facet.corners.size() < 3 ||
+        !turns_left_everywhere(facet.corners, facet.normal)) {
+      for (const int f : members_) {
+        if (f != seed) facet_[f] = -1;
+      }
+      members_ = {seed};
+      facet.corners = faces_[seed].vertices;
+    }
+    facet.faces = members_;
     return facet;
   }
 
   const std::vector<Vec3>& vertices_;
   const std::vector<Convex::Face>& faces_;
   const ConvexTables& tables_;
-  double flat_;
+  double flat_, least_cosine_;
   std::vector<int> facet_, members_;
 };
 
@@ -227,6 +241,7 @@ ConvexTables::ConvexTables(const std::vector<Vec3>& points, const std::vector<Co
   }
   std::vector<std::vector<FaceEdge>> of_face(given.size());
   std::vector<std::vector<int>> edges_at(points.size()), facets_at(points.size());
+  std::vector<std::vector<int>> flats_at(points.size());
   for (const Convex::Edge& e : given_edges) {
     const Vec3 along = unit_along(part * points[e.vertices[1]] - part * points[e.vertices[0]]);
     const Vec3 left = face_normal(e.faces[0]), right = face_normal(e.faces[1]);
@@ -241,11 +256,24 @@ ConvexTables::ConvexTables(const std::vector<Vec3>& points, const std::vector<Co
   vertex_edges = lists_of(edges_at);
   measure();
   constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
-  facets = FacetMaker(points, given, *this, rounding * far).make();
+  facets = FacetMaker(points, given, *this, rounding * far, 0).make();
+  std::vector<int> plane_facet(given.size());  // of each face
   for (std::size_t f = 0; f < facets.size(); ++f) {
+    for (const int face : facets[f].faces) plane_facet[face] = static_cast<int>(f);
     for (const int v : facets[f].corners) facets_at[v].push_back(static_cast<int>(f));
   }
+  constexpr double cosine_of_a_thousandth = 1 - 5e-7;  // thin faces lean that are hardly off
+  for (Facet& flat :
+       FacetMaker(points, given, *this, rough_part * far, cosine_of_a_thousandth).make()) {
+    const int as_plane = plane_facet[flat.faces.front()];
+    const std::size_t plane_count = facets[static_cast<std::size_t>(as_plane)].faces.size();
+    flat.is_rough = flat.faces.size() > plane_count;
+    const int index = flat.is_rough ? static_cast<int>(facets.size()) : as_plane;
+    for (const int v : flat.corners) flats_at[v].push_back(index);
+    if (flat.is_rough) facets.push_back(std::move(flat));
+  }
   vertex_facets = lists_of(facets_at);
+  vertex_flats = lists_of(flats_at);
 }
 
 void ConvexTables::measure() {

@@ -41,12 +41,17 @@ struct ConvexTables {
     int edge, other;  ///< and the face beyond it
     Vec3 outward;     ///< in the face's plane, across the edge
   };
-  /// Faces that lie in one plane but for the rounding of their vertices: what a cap stands on.
+  /// Faces that lie in one plane but for a hair: what a cap stands on.
   struct Facet {
     std::vector<int> corners;  ///< counterclockwise seen from outside
-    Vec3 normal;               ///< outward
-    double offset;             ///< the body's support along it
+    std::vector<int> faces;
+    Vec3 normal;            ///< outward, of the first face
+    double offset;          ///< the body's support along it
+    bool is_rough = false;  ///< by more than the rounding of its vertices
   };
+  /// By how much of `far` a rough facet's vertices are off its plane, at most: those of a mesh in
+  /// single precision are.
+  static constexpr double rough_part = 1e-6;
   /// Items of all owners in one list.
   template <class Item>
   struct Lists {
@@ -65,8 +70,11 @@ struct ConvexTables {
   std::vector<Vec3> face_middles;  ///< of their corners
   std::vector<Edge> edges;
   Lists<FaceEdge> face_edges;
-  std::vector<Facet> facets;
-  Lists<int> vertex_facets, vertex_edges;
+  std::vector<Facet>
+      facets;                ///< plane ones, of which each face has one; then rough ones of several
+  Lists<int> vertex_facets;  ///< plane ones
+  Lists<int> vertex_flats;   ///< rough ones, and plane ones that are in none
+  Lists<int> vertex_edges;
   double far;  ///< the largest sum of a vertex's coordinates: lengths are rounded as parts of it
 
   ConvexTables(const std::vector<Vec3>& vertices, const std::vector<Convex::Face>& faces,

@@ -138,7 +138,8 @@ void set_edge(FacingFeature& feature, const PosedConvex& body, const ConvexTable
   feature.middle = body.centre + body.axes * (edge.from + edge.length / 2 * edge.along);
 }
 
-/// Of the facets and edges at the farthest vertex, those that lean least.
+/// Of the facets and edges at the farthest vertex, those that lean least. Rough facets are none
+/// where only what is sharp is asked for.
 FacingFeature facing(const PosedConvex& body, const Vec3& outward, double slack) {
   const ConvexTables& hull = body.body.tables();
   const Vec3 n = body.axes.transpose() * outward;
@@ -148,7 +149,9 @@ FacingFeature facing(const PosedConvex& body, const Vec3& outward, double slack)
   const ConvexTables::Facet* facet = nullptr;
   double least = std::numeric_limits<double>::infinity();
   constexpr double leans_too_far = 0.99;  // for `part_of_flat`
-  for (const int f : hull.vertex_facets.of(top)) {
+  constexpr double sharp = 1e-3;
+  const bool takes_rough = slack > sharp * ConvexTables::rough_part * hull.far;
+  for (const int f : (takes_rough ? hull.vertex_flats : hull.vertex_facets).of(top)) {
     const ConvexTables::Facet& other = hull.facets[static_cast<std::size_t>(f)];
     if (!(other.normal.dot(n) > leans_too_far)) continue;
     const double sine = other.normal.cross(n).norm();

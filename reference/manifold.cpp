@@ -31,6 +31,28 @@ bool is_flat(const FacingFeature& f) {
   return f.kind == Kind::disc || f.kind == Kind::rectangle || f.kind == Kind::polygon;
 }
 
+/// Moves points from a rough facet's plane to its faces, and to their place in the world. Those
+/// that are no longer within the slack are left out.
+[[gnu::noinline, gnu::cold]] void lay_on_faces(Contact& contact, const FacingFeature& rough,
+                                               const Vec3& origin, const Margins& margins) {
+  const ConvexTables& tables = rough.hull->body.tables();
+  const Eigen::Matrix3d to_hull = rough.hull->axes.transpose();
+  const Vec3 &n = contact.normal, seen = to_hull * n;
+  const Contact before = contact;
+  contact.clear_points();
+  for (const ContactPoint& p : before.points()) {
+    const Vec3 x = to_hull * (p.position + p.depth / 2 * n - rough.hull->centre);
+    double above = 0;
+    for (const int f : rough.facet->faces) {
+      above = std::max(above, tables.height(x, f) / tables.face_normal(f).dot(seen));
+    }
+    const double depth = p.depth - above;
+    if (depth >= -contact.signed_distance - margins.slack - margins.rounding) {
+      contact.add_point(origin + (p.position - above / 2 * n), depth);
+    }
+  }
+}
+
 /// Adds the points where two features face each other; by their kinds (the first of A):
 ///
 ///   point, any       that point; of two, the one that the normal's rounding moves less
@@ -49,6 +71,14 @@ void add_points_of_features(Contact& contact, const FacingFeature& a, const Faci
                       -contact.signed_distance);
     return;
   }
+  if (b.kind == Kind::polygon) {
+    const bool is_rough = b.facet->is_rough;  // then far from the world's origin, too
+    const Vec3 none = Vec3::Zero();
+    const Manifold to{contact, is_rough ? none : origin, margins};
+    is_flat(a) ? disc_on_polygon(to, a, b) : segment_on_flat(to, a, b, true);
+    if (is_rough) lay_on_faces(contact, b, origin, margins);
+    return;
+  }
   const Manifold to{contact, origin, margins};
   if (!is_flat(a) && !is_flat(b)) {
     if (!segments_crossing(to, a, b)) segment_on_segment(to, a, b);
@@ -57,7 +87,6 @@ void add_points_of_features(Contact& contact, const FacingFeature& a, const Faci
   if (!is_flat(a)) return segment_on_flat(to, a, b, true);
   if (!is_flat(b)) return segment_on_flat(to, b, a, false);
   if (b.kind == Kind::rectangle) return disc_on_rectangle(to, a, b);
-  if (b.kind == Kind::polygon) return disc_on_polygon(to, a, b);
   const bool a_is_first =
       a.radius != b.radius ? a.radius < b.radius : points_onward(contact.normal);
   a_is_first ? disc_on_disc(to, a, b, true) : disc_on_disc(to, b, a, false);
@@ -111,7 +140,8 @@ bool meet_any(Contact& contact, const FacingFeature& on_a, const PosedCylinder& 
     return is_right;
   };
   for (const ConvexTables::Facet& f : hull.facets) {
-    if (f.normal.dot(n) > 0 && std::all_of(f.corners.begin(), f.corners.end(), is_far) &&
+    if (!f.is_rough && f.normal.dot(n) > 0 &&
+        std::all_of(f.corners.begin(), f.corners.end(), is_far) &&
         (set_facet(on_b, b, f, f.corners.front()), is_met())) {
       return true;
     }

@@ -54,8 +54,9 @@ inline double seen_at_a_slant(const Configuration& c, const Contact& answer) {
 }
 
 /// Each point, moved by half its depth along the normal, lies on A's surface, and against it on
-/// B's; the deepest has the contact's depth.
-inline void expect_points_on_both(const Configuration& c, const Contact& answer, double tolerance) {
+/// B's; the deepest has the contact's depth, but for `unseen`.
+inline void expect_points_on_both(const Configuration& c, const Contact& answer, double tolerance,
+                                  double unseen = 0) {
   const double aside = tolerance + seen_at_a_slant(c, answer);
   double deepest = -std::numeric_limits<double>::infinity();
   for (const ContactPoint& p : answer.points()) {
@@ -68,7 +69,7 @@ inline void expect_points_on_both(const Configuration& c, const Contact& answer,
   // Of a patch that leans by no more than two millionths of its size the deepest point is not one.
   const double unclear = answer.points().size() >= 3 ? 4e-7 * larger_size(c) : 0;
   EXPECT_NEAR(deepest, -answer.signed_distance,
-              tolerance + unclear + steepest * seen_at_a_slant(c, answer));
+              tolerance + unseen + unclear + steepest * seen_at_a_slant(c, answer));
 }
 
 }  // namespace touchstone
