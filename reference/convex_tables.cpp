@@ -166,16 +166,41 @@ class FacetMaker {
       members_.push_back(e.other);
     }
   }
-  /// Seen along the normal, but for what is flat?
+  /// How far q lies to the right of the way from p to r, seen against the normal.
+  double to_the_right(const Vec3& normal, int p, int q, int r) const {
+    const Vec3 way = vertices_[r] - vertices_[p];
+    return way.cross(normal).dot(vertices_[q] - vertices_[p]) / way.norm();
+  }
   bool turns_left_everywhere(const std::vector<int>& corners, const Vec3& normal) const {
     const std::size_t count = corners.size();
     for (std::size_t i = 0; i < count; ++i) {
-      const Vec3 &p = vertices_[corners[i]], &q = vertices_[corners[(i + 1) % count]];
-      const Vec3& r = vertices_[corners[(i + 2) % count]];
-      const Vec3 chord = r - p;
-      if (normal.cross(chord).dot(q - p) > flat_ * chord.norm()) return false;
+      const int p = corners[i], q = corners[(i + 1) % count], r = corners[(i + 2) % count];
+      if (to_the_right(normal, p, q, r) < -flat_) return false;
     }
     return true;
+  }
+  /// Without the vertices that are hardly off an edge.
+  std::vector<int> straightened(const std::vector<int>& corners, const Vec3& normal) const {
+    const std::size_t count = corners.size();
+    const auto corner = [&](std::size_t i) { return corners[i % count]; };
+    const auto sharpness = [&](std::size_t i) {
+      return to_the_right(normal, corner(i + count - 1), corner(i), corner(i + 1));
+    };
+    std::size_t last = 0;
+    for (std::size_t i = 1; i < count; ++i) {
+      if (sharpness(i) > sharpness(last)) last = i;
+    }
+    std::vector<int> kept = {corner(last)};
+    for (std::size_t i = last + 1, end = last + count; i < end; ++i) {
+      for (std::size_t k = last + 1; k <= i; ++k) {
+        if (std::abs(to_the_right(normal, corner(last), corner(k), corner(i + 1))) <= flat_)
+          continue;
+        last = i;
+        kept.push_back(corner(last));
+        break;
+      }
+    }
+    return kept;
   }
   /// The members' outline; where that is no single one, or not convex, the first face alone.
   ConvexTables::Facet outlined(int seed) {
@@ -199,6 +224,10 @@ class FacetMaker {
     }
     facet.normal = tables_.face_normal(seed);
     facet.offset = tables_.support(facet.normal);
+    if (is_single && members_.size() > 1) {
+      const std::vector<int> corners = straightened(facet.corners, facet.normal);
+      if (corners.size() >= 3) facet.corners = corners;
+    }
     if (!is_single || facet.corners.size() < 3 ||
         !turns_left_everywhere(facet.corners, facet.normal)) {
       for (const int f : members_) {
@@ -257,19 +286,26 @@ ConvexTables::ConvexTables(const std::vector<Vec3>& points, const std::vector<Co
   measure();
   constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
   facets = FacetMaker(points, given, *this, rounding * far, 0).make();
+  // At all vertices of its faces, for one that is no corner may be the farthest along a normal.
+  const auto list = [&given](std::vector<std::vector<int>>& at, const Facet& facet, int index) {
+    for (const int face : facet.faces) {
+      for (const int v : given[face].vertices) {
+        if (at[v].empty() || at[v].back() != index) at[v].push_back(index);
+      }
+    }
+  };
   std::vector<int> plane_facet(given.size());  // of each face
   for (std::size_t f = 0; f < facets.size(); ++f) {
     for (const int face : facets[f].faces) plane_facet[face] = static_cast<int>(f);
-    for (const int v : facets[f].corners) facets_at[v].push_back(static_cast<int>(f));
+    list(facets_at, facets[f], static_cast<int>(f));
   }
-  constexpr double cosine_of_a_thousandth = 1 - 5e-7;  // thin faces lean that are hardly off
-  for (Facet& flat :
-       FacetMaker(points, given, *this, rough_part * far, cosine_of_a_thousandth).make()) {
+  constexpr double thin_leans = 0.5;  // a face that is hardly off may lean as much, if it is thin
+  for (Facet& flat : FacetMaker(points, given, *this, rough_part * far, thin_leans).make()) {
     const int as_plane = plane_facet[flat.faces.front()];
     const std::size_t plane_count = facets[static_cast<std::size_t>(as_plane)].faces.size();
     flat.is_rough = flat.faces.size() > plane_count;
     const int index = flat.is_rough ? static_cast<int>(facets.size()) : as_plane;
-    for (const int v : flat.corners) flats_at[v].push_back(index);
+    list(flats_at, flat, index);
     if (flat.is_rough) facets.push_back(std::move(flat));
   }
   vertex_facets = lists_of(facets_at);
