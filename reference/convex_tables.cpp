@@ -168,8 +168,8 @@ class FacetMaker {
   }
   /// How far q lies to the right of the way from p to r, seen against the normal.
   double to_the_right(const Vec3& normal, int p, int q, int r) const {
-    const Vec3 way = vertices_[r] - vertices_[p];
-    return way.cross(normal).dot(vertices_[q] - vertices_[p]) / way.norm();
+    const Vec3 way = unit_along(vertices_[r] - vertices_[p]);
+    return way.cross(normal).dot(vertices_[q] - vertices_[p]);
   }
   bool turns_left_everywhere(const std::vector<int>& corners, const Vec3& normal) const {
     const std::size_t count = corners.size();

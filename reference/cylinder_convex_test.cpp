@@ -166,8 +166,14 @@ TEST_P(Hulls, AreTheSameWhateverTheUnitOfLength) {
       }
     }
     for (const double factor : {0x1p-670, 0x1p+890}) {  // beyond what powers of lengths may be
+      const double rounding = promised * lengths_of(c);
       const SignedDistance two = signed_distance(scaled(c, factor));
-      ASSERT_NEAR(two.value / factor, one.value, promised * lengths_of(c));
+      ASSERT_NEAR(two.value / factor, one.value, rounding);
+      const Contact more = contact(scaled(c, factor), 0);
+      ASSERT_EQ(more.points().size(), points.points().size());
+      for (std::size_t k = 0; k < points.points().size(); ++k) {
+        ASSERT_NEAR(more.points()[k].depth / factor, points.points()[k].depth, rounding);
+      }
     }
   }
 }
