@@ -199,7 +199,9 @@ TEST(CertifiedHulls, BoundsCountWhatRimsLeaveOpen) {
       const Configuration c = with_hull(kind, random);
       const double lengths = (c.pose_a.position() - c.pose_b.position()).cwiseAbs().sum() +
                              c.a.radius() + c.a.half_length() + std::get<Convex>(c.b).tables().far;
-      counted += certified_distance(c).error_bound > 1.25 * rounding_part * lengths;
+      const double bound = certified_distance(c).error_bound / (rounding_part * lengths);
+      EXPECT_GE(bound, 1 - 1e-12);
+      counted += bound > 1.25;
     }
   }
   EXPECT_GE(counted, 0.085 * count);
