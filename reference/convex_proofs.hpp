@@ -36,8 +36,8 @@ inline Vec3 point_facing(const CylinderInHullFrame& p, const Vec3& n, const Vec3
   Vec3 outward = n - along * p.u;
   const double sine = outward.norm();
   if (sine >= few_digits) return centre - p.r / sine * outward;
-  if (sine >
-      flat_cosine) {  // on the rim or side, unless it is only what rounding leaves along the axis
+  // On the rim or side, unless it is only what rounding leaves along the axis.
+  if (sine > flat_cosine) {
     outward /= sine;
     outward -= outward.dot(p.u) * p.u;
     const double length = outward.norm();
