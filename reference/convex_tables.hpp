@@ -70,10 +70,9 @@ struct ConvexTables {
   std::vector<Vec3> face_middles;  ///< of their corners
   std::vector<Edge> edges;
   Lists<FaceEdge> face_edges;
-  std::vector<Facet>
-      facets;                ///< plane ones, of which each face has one; then rough ones of several
-  Lists<int> vertex_facets;  ///< plane ones
-  Lists<int> vertex_flats;   ///< rough ones, and plane ones that are in none
+  std::vector<Facet> facets;  ///< plane ones, of each face one, then rough ones of several
+  Lists<int> vertex_facets;   ///< plane ones
+  Lists<int> vertex_flats;    ///< rough ones, and plane ones that are in none
   Lists<int> vertex_edges;
   double far;  ///< the largest sum of a vertex's coordinates: lengths are rounded as parts of it
 

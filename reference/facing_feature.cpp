@@ -149,7 +149,7 @@ FacingFeature facing(const PosedConvex& body, const Vec3& outward, double slack)
   const ConvexTables::Facet* facet = nullptr;
   double least = std::numeric_limits<double>::infinity();
   constexpr double leans_too_far = 0.99;  // for `part_of_flat`
-  constexpr double sharp = 1e-3;
+  constexpr double sharp = 1e-3;          // of what makes a facet rough
   const bool takes_rough = slack > sharp * ConvexTables::rough_part * hull.far;
   for (const int f : (takes_rough ? hull.vertex_flats : hull.vertex_facets).of(top)) {
     const ConvexTables::Facet& other = hull.facets[static_cast<std::size_t>(f)];
