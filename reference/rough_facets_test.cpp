@@ -13,6 +13,7 @@
 
 #include "reference/contact_of.hpp"
 #include "reference/convex_tables.hpp"
+#include "reference/curves.hpp"
 #include "reference/hull_movement_test.hpp"
 #include "reference/points_on_both_test.hpp"
 #include "reference/random_hulls_test.hpp"
