@@ -224,7 +224,7 @@ class FacetMaker {
     }
     facet.normal = tables_.face_normal(seed);
     facet.offset = tables_.support(facet.normal);
-    if (is_single && members_.size() > 1) {
+    if (is_single && facet.corners.size() > 3) {
       const std::vector<int> corners = straightened(facet.corners, facet.normal);
       if (corners.size() >= 3) facet.corners = corners;
     }
