@@ -33,8 +33,9 @@ namespace {
 
 /// A line longer than this is no answer.
 constexpr std::size_t max_line = std::size_t{1} << 26;
-/// Time for a child that has closed its output to end.
-constexpr int max_milliseconds_to_end = 100;
+/// Time for a child that has closed its output to end, while the time for an answer runs; and for
+/// one that has not said what it is, on a busy machine, too.
+constexpr int max_milliseconds_to_end = 100, max_milliseconds_to_fail = 5000;
 /// Shapes that are released together: telling the child takes as long as an answer.
 constexpr std::size_t max_released = 64;
 
@@ -143,7 +144,9 @@ std::string SpokenCommand::ask(const std::string& request, std::size_t size) {
 void SpokenCommand::ended(bool within_message) const {
   pollfd end{end_, POLLIN, 0};
   int status = 0;
-  if (poll(&end, 1, max_milliseconds_to_end) > 0 && waitpid(child_, &status, 0) == child_) {
+  const bool has_spoken = description_.unforked;  // which its hello sets
+  const int time = has_spoken ? max_milliseconds_to_end : max_milliseconds_to_fail;
+  if (poll(&end, 1, time) > 0 && waitpid(child_, &status, 0) == child_) {
     throw std::runtime_error(how_it_ended(status));
   }
   throw std::runtime_error(std::string("closed its standard output") +
