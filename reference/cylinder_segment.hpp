@@ -29,7 +29,9 @@ struct FoldedSegment {
 
 /// Does a point of the side, so far along the axis, lie its depth away from the ends?
 inline bool is_within_side(const FoldedSegment& p, double along, double gap) {
-  return (std::abs(along) <= p.h1 - depth(gap)) & (depth(gap) <= p.r1);
+  const double delta = depth(gap);
+  const bool is_between = std::abs(along) <= p.h1 - delta, is_thick = delta <= p.r1;
+  return is_between & is_thick;  // branch-free: either is as likely
 }
 
 // Each stage has nothing to say where it is clear that its gap is not above `best`.

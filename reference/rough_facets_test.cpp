@@ -35,10 +35,11 @@ std::size_t flat_count(const Convex& hull) {
 
 std::vector<Vec3> corners_of_prism(int sides, double radius, double half_length) {
   std::vector<Vec3> corners;
-  for (int i = 0; i < 2 * sides; ++i) {
-    const double angle = 2 * std::numbers::pi * (i / 2) / sides;
-    corners.emplace_back(radius * std::cos(angle), radius * std::sin(angle),
-                         i % 2 == 0 ? half_length : -half_length);
+  for (int i = 0; i < sides; ++i) {
+    const double angle = 2 * std::numbers::pi * i / sides;
+    for (const double z : {half_length, -half_length}) {
+      corners.emplace_back(radius * std::cos(angle), radius * std::sin(angle), z);
+    }
   }
   return corners;
 }
