@@ -114,6 +114,14 @@ mv "$folder/a b" "$folder/moved"
 script="$folder/moved/touchstone" call 7 x
 times 1 "cmake --fresh"
 
+fact="what reads robots is built once a robot's file is named"
+new_machine
+call 7 choose conveyor
+times 0 "ninja plugin_robots"
+new_machine
+call 7 choose --package-path . "my arm.urdf"
+times 1 "ninja plugin_robots"
+
 fact="missing packages, and only they, are installed by root and named"
 new_machine
 MISSING="libode-dev ninja-build" call 7 x

@@ -41,10 +41,6 @@ set(SAME_BITS -ffp-contract=off -fno-tree-slp-vectorize)
 # What reads, writes and prints takes half as long to compile at -Og, and no longer to run.
 set(RARELY_RUN ${SAME_BITS} $<$<CONFIG:Release,Sanitized>:-Og>)
 
-precompiled(touchstone_headers
-  OPTIONS ${SAME_BITS}
-  LIBRARIES ${COMMON_LIBRARIES} touchstone_warnings
-  HEADERS ${COMMON_HEADERS})
 precompiled(touchstone_writer_headers
   OPTIONS ${RARELY_RUN}
   LIBRARIES ${COMMON_LIBRARIES} touchstone_warnings

@@ -20,6 +20,9 @@ namespace {
 /// Loads the module; for a contained process only.
 ReadRobot* load_reader() {
   const std::filesystem::path file = standard_folder() / "touchstone-robots.so";
+  if (!exists(file)) {
+    throw std::runtime_error("there is no " + file.string() + "; ninja plugin_robots builds it");
+  }
   void* const module = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   void* const entry = module ? dlsym(module, robots_entry) : nullptr;
   if (!entry) throw std::runtime_error(dlerror());
