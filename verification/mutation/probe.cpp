@@ -133,7 +133,14 @@ int ask(const Routines& routines, const char* cases_file, const char* known_file
   visit_cases(cases_file, more, pair, [&](const Case& c, bool has_truth) {
     if (pair >= 0 && c.raw.pair != pair) return true;
     expect_an_end();
-    Findings findings = judged(c, has_truth, routines);
+    Findings findings;
+    try {
+      findings = judged(c, has_truth, routines);
+    } catch (const std::exception& error) {
+      std::printf("exception (%s) %s\n", error.what(), c.identity.c_str());
+      result = 1;
+      return false;
+    }
     if (findings.none()) return true;
     if (const auto found = known.find(c.identity); found != known.end()) {
       if (is_wrong_anyway(found->second)) return true;
