@@ -96,6 +96,7 @@ SpokenCommand::SpokenCommand(const char* line, const char* folder) {
   end_ = static_cast<int>(syscall(SYS_pidfd_open, child_, 0));
   signal(SIGPIPE, SIG_IGN);  // what nobody reads is learnt from the child's end or its silence
   description_ = messages::read_hello(ask(messages::hello() + '\n', 0));
+  has_spoken_ = true;
   description_.unforked = true;
   if (description_.in_frames) format_ = messages::Format::frames;
 }
@@ -144,8 +145,7 @@ std::string SpokenCommand::ask(const std::string& request, std::size_t size) {
 void SpokenCommand::ended(bool within_message) const {
   pollfd end{end_, POLLIN, 0};
   int status = 0;
-  const bool has_spoken = description_.unforked;  // which its hello sets
-  const int time = has_spoken ? max_milliseconds_to_end : max_milliseconds_to_fail;
+  const int time = has_spoken_ ? max_milliseconds_to_end : max_milliseconds_to_fail;
   if (poll(&end, 1, time) > 0 && waitpid(child_, &status, 0) == child_) {
     throw std::runtime_error(how_it_ended(status));
   }

@@ -66,6 +66,7 @@ class SpokenCommand {
   int input_, output_;  ///< ends of the child's pipes
   int end_;             ///< readable once the child has ended
   Description description_;
+  bool has_spoken_ = false;  ///< said what it is
   messages::Format format_ = messages::Format::lines;
   std::uint64_t ticket_ = 0;
   std::uint32_t next_handle_ = 0;
