@@ -6,13 +6,16 @@ built=$(dirname "$program")
 mkdir "$folder/part" "$folder/part/candidates"
 cp "$program" "$folder/part/"
 cp "$built"/candidates/touchstone-{*.so,host} "$folder/part/candidates/"
-rm -f "$folder/part/candidates/touchstone-fcl.so"
+rm -f "$folder"/part/candidates/touchstone-{fcl,robots}.so
 program=$folder/part/touchstone
 expect 0 '^fcl: skipped; .*libfcl-dev' list candidates
 also '^bullet 3'
 expect 2 '"fcl-distance": is unavailable; fcl: skipped; was not built; install .*libfcl-dev' \
   replay $rim --candidates fcl-distance
 expect 2 'must be one of reference, ' replay $rim --candidates flc
+echo '<robot name="arm"/>' >"$folder/arm.urdf"
+expect 2 '^error: scene is ".*arm.urdf": needs .*/touchstone-robots.so: ninja plugin_robots builds it$' \
+  choose "$folder/arm.urdf"
 mv "$folder/part/candidates/touchstone-host" "$folder/part/"
 expect 2 '^error: touchstone-host is ".*/candidates/touchstone-host": .*"No such file or directory"; build or install Touchstone again$' \
   replay $rim --candidates bullet

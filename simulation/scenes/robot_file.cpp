@@ -18,12 +18,8 @@ namespace touchstone {
 namespace {
 
 /// Loads the module; for a contained process only.
-ReadRobot* load_reader() {
-  const std::filesystem::path file = standard_folder() / "touchstone-robots.so";
-  if (!exists(file)) {
-    throw std::runtime_error("there is no " + file.string() + "; ninja plugin_robots builds it");
-  }
-  void* const module = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+ReadRobot* load_reader(const std::filesystem::path& reader) {
+  void* const module = dlopen(reader.c_str(), RTLD_NOW | RTLD_LOCAL);
   void* const entry = module ? dlsym(module, robots_entry) : nullptr;
   if (!entry) throw std::runtime_error(dlerror());
   return reinterpret_cast<ReadRobot* (*)()>(entry)();
@@ -40,11 +36,16 @@ bool is_robot_file(const std::filesystem::path& file) {
 }
 
 RobotFile read_robot(const std::filesystem::path& file, const Folders& folders) {
+  const std::filesystem::path reader = standard_folder() / "touchstone-robots.so";
+  if (!exists(reader)) {
+    throw InvalidInput("scene", '"' + file.string() + '"',
+                       "needs " + reader.string() + ": ninja plugin_robots builds it");
+  }
   const int log = memfd_create("library-log", MFD_CLOEXEC);
   if (log < 0) fail("memfd_create");
   constexpr double max_seconds = 20;
   const Contained read =
-      run_contained([&] { return load_reader()(file, folders, log); }, max_seconds);
+      run_contained([&] { return load_reader(reader)(file, folders, log); }, max_seconds);
   const std::string complaint = complaint_in(log);
   close(log);
   if (read.end != Contained::End::returned) {
