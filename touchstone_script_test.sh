@@ -118,9 +118,13 @@ fact="what reads robots is built once a robot's file is named"
 new_machine
 call 7 choose conveyor
 times 0 "ninja plugin_robots"
-new_machine
-call 7 choose --package-path . "my arm.urdf"
-times 1 "ninja plugin_robots"
+endings=$(grep -o '"\.[a-z]*"' "$source_folder/simulation/scenes/robot_file.cpp" | tr -d '"')
+[ "$(wc -w <<<"$endings")" -ge 6 ] || fail "robot_file.cpp names fewer endings than six: $endings"
+for ending in $endings; do
+  new_machine
+  call 7 choose --package-path . "my arm$ending"
+  times 1 "ninja plugin_robots"
+done
 
 fact="missing packages, and only they, are installed by root and named"
 new_machine

@@ -38,7 +38,8 @@ set(COMMON_LIBRARIES Eigen3::Eigen fmt::fmt nlohmann_json::nlohmann_json)
 # The same configuration must have the same bits on every machine: no fused multiply-add. GCC 12's
 # superword vectoriser makes some (vfmaddsub, with -mfma) even where contraction is off.
 set(SAME_BITS -ffp-contract=off -fno-tree-slp-vectorize)
-# What reads, writes and prints takes half as long to compile at -Og, and no longer to run.
+# What reads, writes, prints and draws configurations takes half as long to compile at -Og, and no longer
+# to run beside the truths and answers that it is run for.
 set(RARELY_RUN ${SAME_BITS} $<$<CONFIG:Release,Sanitized>:-Og>)
 
 precompiled(touchstone_writer_headers
